@@ -1,0 +1,96 @@
+//! The faces of the box: which population enters a cell along a direction that comes from outside.
+//!
+//! All rules act on single links, from post-collision populations `f*`, and put the boundary
+//! half-way between the outermost node and its neighbour outside. With `a` the direction that enters
+//! cell `x` and `s = x - c_a` the place outside that it comes from:
+//!
+//! | face | rule | source |
+//! |---|---|---|
+//! | periodic | `f*_a` at the wrapped `s` | |
+//! | wall | half-way bounce-back, also moving | Ladd 1994, the paper's reference 7 |
+//! | velocity inlet | the same with the inlet's velocity | Ladd 1994; Krüger et al. 2017, ch. 5 |
+//! | pressure | anti-bounce-back | Ginzburg, Verhaeghe & d'Humières 2008; Krüger ch. 5 |
+//! | free slip | specular reflection, half-way | Krüger et al. 2017, ch. 5 |
+//! | free outflow | `f*_a` of the outermost cell: zero gradient | Krüger et al. 2017, ch. 5 |
+//!
+//! **Edges and corners.** A link that crosses several faces obeys the first of wall, velocity inlet,
+//! pressure that it crosses; else each crossed face in turn wraps, mirrors or clamps the place it
+//! comes from. Bounce-back acts on the node itself, so a mirror plane that meets a wall or an inlet
+//! gives exactly the flow of the whole, unmirrored box.
+
+use crate::directions::{C, OPPOSITE, number_of};
+use crate::domain::{Domain, Face};
+use crate::lattice::{CS2, Populations, Vec3, W, c, density, momentum};
+
+/// The population that enters cell `x` along direction `a` when `x - c_a` lies outside the box.
+pub fn entering(domain: &Domain, post: &[Populations], x: [usize; 3], a: usize) -> f64 {
+    let mut reflecting: Option<Face> = None;
+    let mut from = [0; 3];
+    let mut direction = C[a];
+    for axis in 0..3 {
+        let (here, n) = (x[axis], domain.cells()[axis]);
+        let faces = domain.faces().axis(axis);
+        let crossed = match C[a][axis] {
+            1 if here == 0 => Some(faces[0]),
+            -1 if here == n - 1 => Some(faces[1]),
+            _ => None,
+        };
+        from[axis] = match crossed {
+            None => here.wrapping_add_signed(-C[a][axis] as isize),
+            Some(Face::Periodic) => n - 1 - here,
+            Some(Face::FreeSlip) => {
+                direction[axis] = -direction[axis];
+                here
+            }
+            Some(Face::FreeOutflow) => here,
+            Some(
+                face @ (Face::Wall { .. } | Face::VelocityInlet { .. } | Face::Pressure { .. }),
+            ) => {
+                reflecting = Some(first_to_obey(reflecting, face));
+                here
+            }
+        };
+    }
+    match reflecting {
+        None => post[domain.index(from)][number_of(direction)],
+        Some(Face::Pressure { density }) => anti_bounce_back(&post[domain.index(x)], a, density),
+        Some(Face::Wall { velocity } | Face::VelocityInlet { velocity }) => {
+            bounce_back(&post[domain.index(x)], a, &velocity)
+        }
+        Some(Face::Periodic | Face::FreeSlip | Face::FreeOutflow) => {
+            unreachable!("only walls, inlets and pressures are collected above")
+        }
+    }
+}
+
+/// Half-way bounce-back at a wall (or inlet) that moves with `u_w`.
+///
+/// The density in the wall term is that of the cell: with a constant one a Couette flow of any other
+/// density would be wrong in proportion.
+pub fn bounce_back(post: &Populations, a: usize, u_w: &Vec3) -> f64 {
+    // f_a(x, t+1) = f*_-a(x, t) + 2 w_a ρ (c_a·u_w)/c_s²
+    let wall =
+        if *u_w == Vec3::zeros() { 0.0 } else { 2.0 * W[a] * density(post) * c(a).dot(u_w) / CS2 };
+    post[OPPOSITE[a]] + wall
+}
+
+/// Anti-bounce-back at a face of density `rho_w`; the velocity there is taken from the cell.
+pub fn anti_bounce_back(post: &Populations, a: usize, rho_w: f64) -> f64 {
+    let u = momentum(post) / density(post);
+    let cu = c(a).dot(&u);
+    // f_a(x, t+1) = -f*_-a(x, t) + 2 w_a ρ_w [1 + 9/2 (c_a·u)² - 3/2 u²]
+    -post[OPPOSITE[a]] + 2.0 * W[a] * rho_w * (1.0 + 4.5 * cu * cu - 1.5 * u.dot(&u))
+}
+
+/// Which of the faces that a link crosses it obeys: a wall before an inlet before a pressure.
+fn first_to_obey(known: Option<Face>, next: Face) -> Face {
+    let rank = |face: &Face| match face {
+        Face::Wall { .. } => 0,
+        Face::VelocityInlet { .. } => 1,
+        _ => 2,
+    };
+    match known {
+        Some(face) if rank(&face) <= rank(&next) => face,
+        _ => next,
+    }
+}

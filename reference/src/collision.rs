@@ -1,0 +1,143 @@
+//! The collision of the fluid alone: SRT (Eq. 2) and MRT (Eq. 3), each with its body force.
+
+use crate::directions::Q;
+use crate::equilibrium::{equilibrium, equilibrium_moments};
+use crate::forcing::{source, source_moments};
+use crate::lattice::{Populations, Vec3};
+use crate::moments::{
+    CellMatrix, Moments, inverse_moment_matrix, moment_matrix, relaxation_matrix,
+};
+use crate::rates::{RateError, Rates};
+use faer::{Mat, Scale};
+
+/// Which collision the fluid uses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Collision {
+    /// Single relaxation time `tau` (Eq. 2).
+    Srt {
+        /// Relaxation time, greater than 1/2.
+        tau: f64,
+    },
+    /// Multiple relaxation times (Eq. 3).
+    Mrt {
+        /// The rates, with `1/tau` among them.
+        rates: Rates,
+    },
+}
+
+impl Collision {
+    /// The relaxation time of the stress, which sets the viscosity.
+    pub fn tau(&self) -> f64 {
+        match self {
+            Collision::Srt { tau } => *tau,
+            Collision::Mrt { rates } => rates.tau(),
+        }
+    }
+
+    /// This collision if its rates can be used; else an error that names the rate.
+    pub fn checked(self) -> Result<Self, RateError> {
+        match self {
+            Collision::Srt { tau } => Rates::srt(tau)?,
+            Collision::Mrt { rates } => rates.checked()?,
+        };
+        Ok(self)
+    }
+}
+
+/// A collision ready for use: for MRT with its matrices built.
+#[derive(Clone, Debug)]
+pub enum CollisionOperator {
+    /// Eq. 2.
+    Srt {
+        /// Relaxation time.
+        tau: f64,
+    },
+    /// Eq. 3. Boxed: it holds three 19 × 19 matrices.
+    Mrt(Box<MrtOperator>),
+}
+
+/// The matrices of Eq. 3.
+#[derive(Clone, Debug)]
+pub struct MrtOperator {
+    /// `M`
+    to_moments: CellMatrix,
+    /// `M⁻¹ S-hat`
+    relax: CellMatrix,
+    /// `M⁻¹ (I - S-hat/2)`
+    force: CellMatrix,
+}
+
+impl MrtOperator {
+    /// Builds the matrices for a diagonal of `S-hat` in the order of [`crate::moments::NAMES`].
+    ///
+    /// Any diagonal is taken as it stands, so that a misprinted one can be tried too.
+    pub fn new(diagonal: &Moments) -> Self {
+        let inverse = inverse_moment_matrix();
+        let s_hat = relaxation_matrix(diagonal);
+        let half_left = Mat::<f64>::identity(Q, Q) - Scale(0.5) * &s_hat;
+        MrtOperator {
+            to_moments: CellMatrix::from_faer(&moment_matrix()),
+            relax: CellMatrix::from_faer(&(&inverse * &s_hat)),
+            force: CellMatrix::from_faer(&(&inverse * &half_left)),
+        }
+    }
+}
+
+impl CollisionOperator {
+    /// Prepares `collision`.
+    pub fn new(collision: &Collision) -> Self {
+        match collision {
+            Collision::Srt { tau } => CollisionOperator::Srt { tau: *tau },
+            Collision::Mrt { rates } => {
+                CollisionOperator::Mrt(Box::new(MrtOperator::new(&rates.diagonal())))
+            }
+        }
+    }
+
+    /// The change `Omega` of the populations in one collision towards the equilibrium at
+    /// (`rho`, `u`).
+    pub fn relaxation(&self, f: &Populations, rho: f64, u: &Vec3) -> Populations {
+        match self {
+            CollisionOperator::Srt { tau } => srt(f, rho, u, *tau),
+            CollisionOperator::Mrt(operator) => mrt(f, rho, u, operator),
+        }
+    }
+
+    /// The change of the populations by the body force, scaled to go with [`Self::relaxation`]:
+    /// together they change the momentum by exactly `body_force`.
+    pub fn source(&self, u: &Vec3, body_force: &Vec3) -> Populations {
+        match self {
+            // (1 - 1/(2τ)) F
+            CollisionOperator::Srt { tau } => {
+                source(u, body_force).map(|value| (1.0 - 0.5 / tau) * value)
+            }
+            // M⁻¹ (I - Ŝ/2) M F
+            CollisionOperator::Mrt(operator) => {
+                operator.force.times(&source_moments(u, body_force))
+            }
+        }
+    }
+}
+
+/// SRT, Eq. 2.
+fn srt(f: &Populations, rho: f64, u: &Vec3, tau: f64) -> Populations {
+    let f_eq = equilibrium(rho, u);
+    let mut omega = [0.0; Q];
+    for a in 0..Q {
+        // Ω = -(f - f^eq)/τ                                                             (Eq. 2)
+        omega[a] = -(f[a] - f_eq[a]) / tau;
+    }
+    omega
+}
+
+/// MRT, Eq. 3.
+fn mrt(f: &Populations, rho: f64, u: &Vec3, operator: &MrtOperator) -> Populations {
+    let m = operator.to_moments.times(f);
+    let m_eq = equilibrium_moments(rho, u);
+    let mut m_neq = [0.0; Q];
+    for k in 0..Q {
+        m_neq[k] = m[k] - m_eq[k];
+    }
+    // Ω = -M⁻¹ Ŝ (m - m^eq)                                                             (Eq. 3)
+    operator.relax.times(&m_neq).map(|value| -value)
+}

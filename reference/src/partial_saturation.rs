@@ -1,0 +1,142 @@
+//! The partially saturated (PS) term: how a solid acts on the fluid that shares its cells.
+//!
+//! Source: Noble & Torczynski, Int. J. Mod. Phys. C 9, 1189 (1998), the paper's reference 5, as the
+//! paper uses it in Eqs. 4 to 6; see `ERRATA.md` for what is misprinted there. Inside this term the
+//! velocity of the fluid is the bare `j/rho`, also where a body force acts.
+
+use crate::collision::CollisionOperator;
+use crate::directions::{OPPOSITE, Q};
+use crate::equilibrium::equilibrium;
+use crate::lattice::{Populations, Vec3, c};
+
+/// The weight `B` of a cell as a function of its solid fraction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Weighting {
+    /// `B = epsilon`.
+    SolidFraction,
+    /// Noble and Torczynski's `B(epsilon, tau)`.
+    #[default]
+    NobleTorczynski,
+}
+
+impl Weighting {
+    /// The weight `B` in 0..=1 of a cell of solid fraction `epsilon` at relaxation time `tau`.
+    pub fn weight(self, epsilon: f64, tau: f64) -> f64 {
+        match self {
+            Weighting::SolidFraction => epsilon,
+            // B = ε (τ - 1/2) / [(1 - ε) + (τ - 1/2)]
+            Weighting::NobleTorczynski => epsilon * (tau - 0.5) / ((1.0 - epsilon) + (tau - 0.5)),
+        }
+    }
+}
+
+/// The weights of the solids in one cell.
+///
+/// `B` is not linear in the solid fraction, so the cell is weighed once,
+/// `B_t = B(min(1, sum epsilon_s), tau)`, and shared out in proportion to the `epsilon_s`: two solids
+/// that fill half a cell each weigh what one solid weighs that fills it.
+/// Calls `visit(s, B_s)` for each solid and returns `B_t`.
+pub fn share_weight(
+    weighting: Weighting,
+    tau: f64,
+    epsilons: impl Iterator<Item = f64> + Clone,
+    mut visit: impl FnMut(usize, f64),
+) -> f64 {
+    let sum: f64 = epsilons.clone().sum();
+    // B_t = B(min(1, Σ ε_s), τ)
+    let total = weighting.weight(sum.min(1.0), tau);
+    for (s, epsilon) in epsilons.enumerate() {
+        // B_s = B_t ε_s / Σ ε_s
+        visit(s, total * (epsilon / sum));
+    }
+    total
+}
+
+/// Which collision takes place in the solid part of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum SolidOperator {
+    /// Bounce-back of the non-equilibrium part, the paper's Eq. 5.
+    #[default]
+    NonEquilibriumBounceBack,
+    /// Equilibrium of the solid plus the fluid's relaxed non-equilibrium part.
+    Superposition,
+}
+
+/// The state of a cell that the solid operators need.
+pub struct CellState<'a> {
+    /// Populations before the collision.
+    pub f: &'a Populations,
+    /// Density.
+    pub rho: f64,
+    /// Bare velocity `j/rho`.
+    pub u: Vec3,
+}
+
+impl SolidOperator {
+    /// The change `Lambda` of the populations in a cell full of solid that moves with `u_p`, as a
+    /// function of `u_p`: what does not depend on the solid is worked out once for all solids in
+    /// the cell.
+    pub fn prepare(self, cell: &CellState<'_>, fluid: &CollisionOperator) -> PreparedSolid {
+        let fixed = match self {
+            SolidOperator::NonEquilibriumBounceBack => bounce_back(cell),
+            SolidOperator::Superposition => superposition(cell, fluid),
+        };
+        PreparedSolid { fixed, rho: cell.rho }
+    }
+}
+
+/// A solid operator with the state of its cell put in.
+pub struct PreparedSolid {
+    /// `Lambda - f_eq(rho, u_p)`
+    fixed: Populations,
+    rho: f64,
+}
+
+impl PreparedSolid {
+    /// `Lambda` for a solid that moves with `u_p` here.
+    pub fn lambda(&self, u_p: &Vec3) -> Populations {
+        let f_eq_solid = equilibrium(self.rho, u_p);
+        let mut lambda = [0.0; Q];
+        for a in 0..Q {
+            lambda[a] = f_eq_solid[a] + self.fixed[a];
+        }
+        lambda
+    }
+}
+
+/// Eq. 5 of the paper (sign corrected) less its term `f_a^eq(rho, u_p)`.
+fn bounce_back(cell: &CellState<'_>) -> Populations {
+    let f = cell.f;
+    let f_eq = equilibrium(cell.rho, &cell.u);
+    let mut fixed = [0.0; Q];
+    for a in 0..Q {
+        // Λ_a = f_-a - f_-a^eq(ρ, u) + f_a^eq(ρ, u_p) - f_a                    (Eq. 5, corrected)
+        fixed[a] = f[OPPOSITE[a]] - f_eq[OPPOSITE[a]] - f[a];
+    }
+    fixed
+}
+
+/// The superposition operator less its term `f_a^eq(rho, u_p)`.
+///
+/// Source: Holdych, PhD thesis, Univ. Illinois (2003); Strack & Cook, Int. J. Numer. Meth. Fluids
+/// 55, 103 (2007), who write `f_eq(rho, u_p) - f + (1 - 1/tau)(f - f_eq(rho, u))`. The last term is
+/// the non-equilibrium part that the fluid's own collision leaves: under MRT it is
+/// `(I - M⁻¹ S-hat M)(f - f_eq) = f - f_eq + Omega`, each moment with its own rate.
+fn superposition(cell: &CellState<'_>, fluid: &CollisionOperator) -> Populations {
+    let f_eq = equilibrium(cell.rho, &cell.u);
+    let omega = fluid.relaxation(cell.f, cell.rho, &cell.u);
+    let mut fixed = [0.0; Q];
+    for a in 0..Q {
+        // Λ_a = f_a^eq(ρ, u_p) - f_a + [f_a - f_a^eq(ρ, u) + Ω_a]
+        fixed[a] = omega[a] - f_eq[a];
+    }
+    fixed
+}
+
+/// Force on a solid from its part `weight * lambda` of a collision: the momentum that the fluid
+/// loses.
+pub fn force(weight: f64, lambda: &Populations) -> Vec3 {
+    // F_s = -B_s Σ_a Λ_a c_a
+    let gained: Vec3 = (0..Q).map(|a| lambda[a] * c(a)).sum();
+    -weight * gained
+}

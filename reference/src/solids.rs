@@ -1,0 +1,124 @@
+//! Solids in the fluid: vocabulary that every engine shares.
+
+use crate::lattice::Vec3;
+use thiserror::Error;
+
+/// Where a solid is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A sphere of `radius` about the solid's centre, in cells.
+    Sphere {
+        /// Radius in cells.
+        radius: f64,
+    },
+    /// Solid fractions given cell by cell (`(cell index, epsilon in 0..=1)`): slabs, voxels. They
+    /// stay where they are, also if the solid has a velocity (a belt).
+    Cells {
+        /// Cell index and solid fraction.
+        fractions: Vec<(usize, f64)>,
+    },
+}
+
+/// A solid with its motion, in lattice units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solid {
+    /// Its shape.
+    pub shape: Shape,
+    /// Its centre: centre of a sphere, and the point about which it spins and torques are taken.
+    pub centre: Vec3,
+    /// Velocity of the centre.
+    pub velocity: Vec3,
+    /// Angular velocity in radians per step.
+    pub spin: Vec3,
+}
+
+/// A solid that cannot be used.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum SolidError {
+    /// A radius, centre or velocity that is not a finite number, or a radius that is not positive.
+    #[error("solid {solid} has {key} = {value}: {allowed}")]
+    BadValue {
+        /// Number of the solid.
+        solid: usize,
+        /// Name of the value.
+        key: &'static str,
+        /// The value as given.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A cell index outside the box.
+    #[error("solid {solid} names cell {cell}, but the box has {count} cells (0 to {count} - 1)")]
+    NoSuchCell {
+        /// Number of the solid.
+        solid: usize,
+        /// The cell as given.
+        cell: usize,
+        /// Number of cells in the box.
+        count: usize,
+    },
+}
+
+impl Solid {
+    /// A sphere held still.
+    pub fn fixed_sphere(centre: Vec3, radius: f64) -> Self {
+        let still = Vec3::zeros();
+        Solid { shape: Shape::Sphere { radius }, centre, velocity: still, spin: still }
+    }
+
+    /// Given solid fractions, held still.
+    pub fn fixed_cells(fractions: Vec<(usize, f64)>) -> Self {
+        let still = Vec3::zeros();
+        Solid { shape: Shape::Cells { fractions }, centre: still, velocity: still, spin: still }
+    }
+
+    /// Velocity of the solid at distance `arm` from its centre, translation and rotation.
+    pub fn velocity_at(&self, arm: &Vec3) -> Vec3 {
+        // u_p = U + ω × r
+        self.velocity + self.spin.cross(arm)
+    }
+
+    /// Whether the solid's cells change from step to step.
+    pub fn moves(&self) -> bool {
+        matches!(self.shape, Shape::Sphere { .. }) && self.velocity != Vec3::zeros()
+    }
+
+    /// Errors unless the numbers of solid number `solid` can be used in a box of `cell_count` cells.
+    pub fn check(&self, solid: usize, cell_count: usize) -> Result<(), SolidError> {
+        let bad = |key, value, allowed| Err(SolidError::BadValue { solid, key, value, allowed });
+        let finite = "it must be finite";
+        for (key, vector) in
+            [("centre", self.centre), ("velocity", self.velocity), ("spin", self.spin)]
+        {
+            if let Some(&value) = vector.iter().find(|component| !component.is_finite()) {
+                return bad(key, value, finite);
+            }
+        }
+        match &self.shape {
+            Shape::Sphere { radius } if !(*radius > 0.0 && radius.is_finite()) => {
+                bad("radius", *radius, "it must be positive and finite")
+            }
+            Shape::Sphere { .. } => Ok(()),
+            Shape::Cells { fractions } => {
+                for &(cell, epsilon) in fractions {
+                    if cell >= cell_count {
+                        return Err(SolidError::NoSuchCell { solid, cell, count: cell_count });
+                    }
+                    if !(0.0..=1.0).contains(&epsilon) {
+                        return bad("solid fraction", epsilon, "it must lie between 0 and 1");
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Force and torque of the fluid on a solid during one step, lattice units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Load {
+    /// Force.
+    pub force: Vec3,
+    /// Torque about the solid's centre.
+    pub torque: Vec3,
+}

@@ -1,0 +1,201 @@
+//! The time step: the order of operations, nothing else.
+
+use crate::cell_collision::{CellCollision, Impulse};
+use crate::collision::CollisionOperator;
+use crate::coverage::Coverage;
+use crate::domain::Domain;
+use crate::equilibrium::equilibrium;
+use crate::forcing::forced_velocity;
+use crate::guard::{Guard, Stopped};
+use crate::lattice::{Populations, Vec3, density, momentum};
+use crate::planes::map_planes;
+use crate::setup::{Setup, SetupError};
+use crate::solids::{Load, Solid};
+use crate::streaming::stream;
+
+/// The oracle: the fluid of one box, and the solids that move through it as prescribed.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    setup: Setup,
+    operator: CollisionOperator,
+    coverage: Option<Coverage>,
+    f: Vec<Populations>,
+    post: Vec<Populations>,
+    loads: Vec<Load>,
+    guard: Guard,
+    steps: u64,
+}
+
+impl Solver {
+    /// A fluid of density 1 at rest. Errors if the set-up cannot be run.
+    pub fn new(setup: Setup) -> Result<Self, SetupError> {
+        Self::starting_from(setup, |_| (1.0, Vec3::zeros()))
+    }
+
+    /// A fluid whose density and velocity at each cell centre are `state(centre)`, with the
+    /// populations in equilibrium. Errors if the set-up cannot be run.
+    pub fn starting_from(
+        setup: Setup,
+        state: impl Fn(Vec3) -> (f64, Vec3),
+    ) -> Result<Self, SetupError> {
+        let f = (0..setup.domain.cell_count())
+            .map(|cell| {
+                let (rho, u) = state(setup.domain.centre(setup.domain.coordinates(cell)));
+                // With a body force the momentum before a collision is half a step behind.
+                let u = u - setup.body_force.unwrap_or_else(Vec3::zeros) * (0.5 / rho);
+                equilibrium(rho, &u)
+            })
+            .collect();
+        Self::from_populations(setup, f)
+    }
+
+    /// A fluid with the given populations, one set per cell. Errors if the set-up cannot be run.
+    ///
+    /// # Panics
+    /// If there are not as many sets as cells: a mistake in the calling code.
+    pub fn from_populations(setup: Setup, f: Vec<Populations>) -> Result<Self, SetupError> {
+        setup.check()?;
+        assert_eq!(f.len(), setup.domain.cell_count(), "one set of populations per cell");
+        let operator = CollisionOperator::new(&setup.collision);
+        Ok(Self::with_operator(setup, operator, f))
+    }
+
+    /// The same with a collision operator of the caller's making, which the set-up's does not
+    /// check: for trying what a misprinted matrix does.
+    pub fn with_operator(setup: Setup, operator: CollisionOperator, f: Vec<Populations>) -> Self {
+        let coverage = setup
+            .solid_phase
+            .as_ref()
+            .map(|phase| Coverage::new(&setup.domain, &phase.solids, phase.coverage));
+        let loads = vec![Load::default(); setup.solid_phase.as_ref().map_or(0, |p| p.solids.len())];
+        let guard = Guard::new(setup.guard);
+        let post = f.clone();
+        Solver { setup, operator, coverage, f, post, loads, guard, steps: 0 }
+    }
+
+    /// One step. Errors when the guard, which looks every so many steps, finds the state broken.
+    pub fn step(&mut self) -> Result<(), Stopped> {
+        self.guard.look(&self.setup, &self.f, self.steps)?;
+        self.collide(); // f → f*, and the loads on the solids         (right side of Eq. 1)
+        stream(&self.setup.domain, &self.post, &mut self.f); // f* → f   (left side of Eq. 1)
+        self.move_solids();
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// `count` steps.
+    pub fn run(&mut self, count: u64) -> Result<(), Stopped> {
+        (0..count).try_for_each(|_| self.step())
+    }
+
+    /// Looks for a broken state now, whatever the step.
+    pub fn check_now(&mut self) -> Result<(), Stopped> {
+        self.guard.look_now(&self.setup, &self.f, self.steps)
+    }
+
+    /// Collides every cell into `post` and adds up what each solid receives, plane by plane.
+    fn collide(&mut self) {
+        let cell_collision =
+            CellCollision::new(&self.setup, &self.operator, self.coverage.as_ref());
+        let (f, [nx, ny, _]) = (&self.f, self.setup.domain.cells());
+        let impulses = map_planes(&mut self.post, nx * ny, |z, plane| {
+            let mut impulses: Vec<Impulse> = Vec::new();
+            for (i, post) in plane.iter_mut().enumerate() {
+                let cell = i + nx * ny * z;
+                *post = cell_collision.collide(cell, &f[cell], &mut impulses);
+            }
+            impulses
+        });
+        self.loads.fill(Load::default());
+        for impulse in impulses.iter().flatten() {
+            let load = &mut self.loads[impulse.solid];
+            load.force += impulse.force;
+            load.torque += impulse.arm.cross(&impulse.force);
+        }
+    }
+
+    /// Carries the solids along with their prescribed velocities.
+    fn move_solids(&mut self) {
+        let (Some(phase), Some(coverage)) = (&mut self.setup.solid_phase, &mut self.coverage)
+        else {
+            return;
+        };
+        if !phase.solids.iter().any(Solid::moves) {
+            return;
+        }
+        for solid in phase.solids.iter_mut().filter(|solid| solid.moves()) {
+            solid.centre += solid.velocity;
+        }
+        coverage.update(&self.setup.domain, &phase.solids, phase.coverage);
+    }
+
+    /// Steps made so far.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The set-up, with the solids where they are now.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// The box.
+    pub fn domain(&self) -> &Domain {
+        &self.setup.domain
+    }
+
+    /// The populations, cell by cell, before the next collision.
+    pub fn populations(&self) -> &[Populations] {
+        &self.f
+    }
+
+    /// What the solids cover, if there are any.
+    pub fn coverage(&self) -> Option<&Coverage> {
+        self.coverage.as_ref()
+    }
+
+    /// Force and torque on each solid during the last step.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// Sets the body force from the next step on; its presence cannot change.
+    pub fn set_body_force(&mut self, body_force: Vec3) {
+        if let Some(force) = &mut self.setup.body_force {
+            *force = body_force;
+        }
+    }
+
+    /// Sets the prescribed motion of solid number `solid` from the next step on.
+    pub fn set_motion(&mut self, solid: usize, velocity: Vec3, spin: Vec3) {
+        if let Some(phase) = &mut self.setup.solid_phase {
+            phase.solids[solid].velocity = velocity;
+            phase.solids[solid].spin = spin;
+        }
+    }
+
+    /// Density of each cell.
+    pub fn density_field(&self) -> Vec<f64> {
+        self.f.iter().map(density).collect()
+    }
+
+    /// Velocity of the fluid in each cell, half-way through a collision that sees the body force
+    /// alone: `(j + G/2)/rho`. Inside solids the mass flux is [`Self::mass_flux_field`].
+    pub fn velocity_field(&self) -> Vec<Vec3> {
+        let g = self.setup.body_force.unwrap_or_else(Vec3::zeros);
+        self.f.iter().map(|f| forced_velocity(density(f), &momentum(f), &g)).collect()
+    }
+
+    /// Mass flux of each cell: the mean of its momentum before and after the next collision, solid
+    /// cells included. Its mean over the box, divided by the density, is the superficial velocity.
+    pub fn mass_flux_field(&self) -> Vec<Vec3> {
+        let cell_collision =
+            CellCollision::new(&self.setup, &self.operator, self.coverage.as_ref());
+        let mut impulses = Vec::new();
+        let flux = |(cell, f): (usize, &Populations)| {
+            let post = cell_collision.collide(cell, f, &mut impulses);
+            0.5 * (momentum(f) + momentum(&post))
+        };
+        self.f.iter().enumerate().map(flux).collect()
+    }
+}
