@@ -33,6 +33,8 @@ pub enum Symptom {
     NoDensity(f64),
     /// The fluid is faster than [`GuardSettings::max_speed`].
     TooFast(f64),
+    /// The mean density of the box is less than half or more than twice its first value.
+    MeanDensity(f64),
 }
 
 /// Why it probably went wrong.
@@ -83,7 +85,7 @@ pub enum Cause {
 pub struct Stopped {
     /// The step before which the state was looked at.
     pub step: u64,
-    /// The first broken cell, `[x, y, z]`.
+    /// The first broken cell, `[x, y, z]`; `[0, 0, 0]` where all are.
     pub cell: [usize; 3],
     /// What is wrong there.
     pub symptom: Symptom,
@@ -94,13 +96,21 @@ pub struct Stopped {
 impl fmt::Display for Stopped {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Stopped { step, cell, symptom, cause } = self;
-        write!(out, "stopped before step {step} at cell {cell:?}: ")?;
+        write!(out, "stopped before step {step} ")?;
+        match symptom {
+            Symptom::MeanDensity(_) => write!(out, "on the mean over all cells: ")?,
+            _ => write!(out, "at cell {cell:?}: ")?,
+        }
         match symptom {
             Symptom::NotFinite => write!(out, "a population is not a finite number")?,
             Symptom::NoDensity(rho) => write!(out, "density = {rho:.3e} must be positive")?,
             Symptom::TooFast(speed) => write!(
                 out,
                 "speed = {speed:.3} lattice units is past the limit (the speed of sound is 0.577)"
+            )?,
+            Symptom::MeanDensity(ratio) => write!(
+                out,
+                "the mean density is {ratio:.3} times its first value and must stay within 0.5 to 2"
             )?,
         }
         write!(out, ". Probable cause: ")?;
@@ -152,8 +162,12 @@ impl fmt::Display for Stopped {
 /// Above this many cells' worth of advection per diffusion a flow cannot be resolved.
 const MAX_GRID_REYNOLDS: f64 = 10.0;
 
-/// A mean density this far from its first value has drifted.
+/// A mean density this far from its first value has drifted, if something else broke.
 const MAX_DENSITY_DRIFT: f64 = 0.1;
+
+/// A mean density beyond this factor of its first value is itself broken: the fluid is meant to be
+/// nearly incompressible.
+const MAX_DENSITY_FACTOR: f64 = 2.0;
 
 /// Keeps what it saw when all was well, as evidence for when it is not.
 #[derive(Clone, Debug)]
@@ -201,14 +215,24 @@ impl Guard {
         self.last_mean_density = mass / f.len() as f64;
         self.first_mean_density.get_or_insert(self.last_mean_density);
         self.last_max_speed = max_speed;
-        Ok(())
+        let ratio = self.density_drift();
+        if (1.0 / MAX_DENSITY_FACTOR..=MAX_DENSITY_FACTOR).contains(&ratio) {
+            return Ok(());
+        }
+        let (symptom, cause) = (Symptom::MeanDensity(ratio), self.probable_cause(setup, step));
+        Err(Stopped { step, cell: [0, 0, 0], symptom, cause })
+    }
+
+    /// Mean density at the last look over mean density at the first.
+    pub fn density_drift(&self) -> f64 {
+        self.first_mean_density.map_or(1.0, |first| self.last_mean_density / first)
     }
 
     /// The first cause for which there is evidence, the most certain kinds first.
     fn probable_cause(&self, setup: &Setup, step: u64) -> Cause {
-        let Some(first_mean_density) = self.first_mean_density else {
+        if self.first_mean_density.is_none() {
             return Cause::InitialState;
-        };
+        }
         let limit = self.settings.max_speed;
         if let Some((solid, speed)) = fastest_solid(setup).filter(|&(_, speed)| speed > 0.5 * limit)
         {
@@ -220,7 +244,7 @@ impl Guard {
         if let Some(speed) = pressure_speed(setup).filter(|&speed| speed > 0.5 * limit) {
             return Cause::PressureDifference { speed };
         }
-        let ratio = self.last_mean_density / first_mean_density;
+        let ratio = self.density_drift();
         if (ratio - 1.0).abs() > MAX_DENSITY_DRIFT {
             return Cause::DensityDrift { ratio };
         }

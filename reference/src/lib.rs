@@ -29,6 +29,7 @@ pub mod directions;
 pub mod domain;
 pub mod equilibrium;
 pub mod forcing;
+pub mod grains;
 pub mod guard;
 pub mod lattice;
 pub mod moments;

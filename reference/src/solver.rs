@@ -134,6 +134,12 @@ impl Solver {
         self.steps
     }
 
+    /// Mean density at the guard's last look over that at its first. A velocity inlet with a free
+    /// outflow leaves it free, all other boxes hold it.
+    pub fn density_drift(&self) -> f64 {
+        self.guard.density_drift()
+    }
+
     /// The set-up, with the solids where they are now.
     pub fn setup(&self) -> &Setup {
         &self.setup

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses a part of this")]
 
+pub mod random;
+
 use psmrt_reference::solver::Solver;
 
 /// The cell updates that a test may spend on the oracle; `tests/tidy.rs` adds up the literals of all

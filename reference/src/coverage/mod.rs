@@ -79,7 +79,7 @@ impl Coverage {
                     self.add_sphere(domain, number, &solid.centre, *radius, rule);
                 }
                 Shape::Cells { fractions } => {
-                    for &(cell, epsilon) in fractions {
+                    for &(cell, epsilon) in fractions.iter().filter(|(_, epsilon)| *epsilon > 0.0) {
                         let arm = domain.centre(domain.coordinates(cell)) - solid.centre;
                         self.add(cell, Share { solid: number, epsilon, arm });
                     }

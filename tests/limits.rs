@@ -1,0 +1,202 @@
+//! Limits in which one model must become another.
+
+mod common;
+
+use common::random::{Random, largest_difference};
+use psmrt_reference::cell_collision::CellCollision;
+use psmrt_reference::collision::{Collision, CollisionOperator};
+use psmrt_reference::coverage::Coverage;
+use psmrt_reference::directions::Q;
+use psmrt_reference::domain::{Domain, Faces};
+use psmrt_reference::equilibrium::equilibrium;
+use psmrt_reference::lattice::{Populations, Vec3, momentum};
+use psmrt_reference::partial_saturation::{CellState, SolidOperator, Weighting};
+use psmrt_reference::rates::Rates;
+use psmrt_reference::setup::{Setup, SolidPhase};
+use psmrt_reference::solids::Solid;
+use psmrt_reference::solver::Solver;
+
+const OPERATORS: [SolidOperator; 2] =
+    [SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition];
+const WEIGHTINGS: [Weighting; 2] = [Weighting::SolidFraction, Weighting::NobleTorczynski];
+
+fn one_cell() -> Domain {
+    Domain::new([1, 1, 1], Faces::PERIODIC).unwrap()
+}
+
+/// Post-collision populations of one cell in which each of `solids` has the given solid fraction
+/// and velocity.
+fn collide(
+    f: &Populations,
+    collision: Collision,
+    body_force: Option<Vec3>,
+    phase: SolidPhase,
+) -> Populations {
+    let mut setup = Setup::fluid(one_cell(), collision).with_solids(phase);
+    setup.body_force = body_force;
+    let operator = CollisionOperator::new(&collision);
+    let phase = setup.solid_phase.as_ref().unwrap();
+    let coverage = Coverage::new(&setup.domain, &phase.solids, phase.coverage);
+    CellCollision::new(&setup, &operator, Some(&coverage)).collide(0, f, &mut Vec::new())
+}
+
+fn solid(epsilon: f64, velocity: Vec3) -> Solid {
+    Solid { velocity, ..Solid::fixed_cells(vec![(0, epsilon)]) }
+}
+
+fn mrt(tau: f64) -> Collision {
+    Collision::Mrt { rates: Rates::dhumieres(tau).unwrap() }
+}
+
+#[test]
+fn vanishing_solid_leaves_the_fluids_collision_to_the_last_bit() {
+    let mut random = Random(1);
+    let g = Some(random.vector(1e-3));
+    for collision in [Collision::Srt { tau: 0.7 }, mrt(0.7)] {
+        for operator in OPERATORS {
+            for weighting in WEIGHTINGS {
+                let f = random.populations();
+                let fluid = collide(&f, collision, g, SolidPhase::default());
+                // A weight of 1e-300 runs the whole PS code and lies below the last bit.
+                let solids = vec![solid(1e-300, random.vector(0.1))];
+                let phase = SolidPhase { solids, weighting, operator, ..SolidPhase::default() };
+                assert_eq!(collide(&f, collision, g, phase), fluid, "{collision:?} {operator:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn mrt_with_equal_rates_is_srt() {
+    let mut random = Random(2);
+    for tau in [0.505, 0.8, 1.0, 3.0] {
+        let equal = Collision::Mrt { rates: Rates::srt(tau).unwrap() };
+        for g in [None, Some(random.vector(1e-2))] {
+            let f = random.populations();
+            let phase =
+                || SolidPhase { solids: vec![solid(0.3, Vec3::zeros())], ..SolidPhase::default() };
+            let srt = Collision::Srt { tau };
+            // Two products with 19 x 19 matrices of order one on populations below 0.4; M's rows
+            // reach 2394 in norm but M⁻¹ undoes that.
+            assert!(
+                largest_difference(&collide(&f, equal, g, phase()), &collide(&f, srt, g, phase()))
+                    < 1e-14
+            );
+            let bare = || SolidPhase::default();
+            assert!(
+                largest_difference(&collide(&f, equal, g, bare()), &collide(&f, srt, g, bare()))
+                    < 1e-14
+            );
+        }
+    }
+}
+
+#[test]
+fn full_cell_of_a_resting_solid_keeps_no_momentum() {
+    let mut random = Random(3);
+    for collision in [Collision::Srt { tau: 0.6 }, mrt(0.6), mrt(2.0)] {
+        for operator in OPERATORS {
+            let f = random.populations();
+            for g in [None, Some(Vec3::new(1e-3, 0.0, 0.0))] {
+                let solids = vec![solid(1.0, Vec3::zeros())];
+                let phase = SolidPhase { solids, operator, ..SolidPhase::default() };
+                // Momentum is a sum of 18 populations below 0.1.
+                let left = momentum(&collide(&f, collision, g, phase)).norm();
+                assert!(left < 1e-15, "{operator:?}: {left:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn full_cell_leaves_with_the_momentum_of_the_solid() {
+    let mut random = Random(4);
+    for operator in OPERATORS {
+        let (f, u_p) = (random.populations(), random.vector(0.1));
+        let rho: f64 = f.iter().sum();
+        let phase = SolidPhase { solids: vec![solid(1.0, u_p)], operator, ..SolidPhase::default() };
+        // As above, twice over.
+        assert!((momentum(&collide(&f, mrt(0.8), None, phase)) - rho * u_p).norm() < 2e-15);
+    }
+}
+
+#[test]
+fn two_solids_that_half_fill_a_cell_weigh_as_one_that_fills_it() {
+    let mut random = Random(5);
+    for weighting in WEIGHTINGS {
+        for tau in [0.5 + 1e-6, 0.6, 1.5] {
+            let (f, u_p) = (random.populations(), random.vector(0.1));
+            let with = |solids| SolidPhase { solids, weighting, ..SolidPhase::default() };
+            let one = collide(&f, mrt(tau), None, with(vec![solid(1.0, u_p)]));
+            let two = collide(&f, mrt(tau), None, with(vec![solid(0.5, u_p), solid(0.5, u_p)]));
+            let four = collide(&f, mrt(tau), None, with(vec![solid(0.9, u_p); 4]));
+            // Sums of two and four products of populations below 0.4.
+            assert!(largest_difference(&one, &two) < 1e-15);
+            assert!(largest_difference(&one, &four) < 1e-15, "overfull cells count as full");
+        }
+    }
+}
+
+#[test]
+fn every_solid_in_a_cell_acts_with_its_own_velocity_in_proportion_to_its_fraction() {
+    let mut random = Random(6);
+    let (f, first, second) = (random.populations(), random.vector(0.1), random.vector(0.1));
+    let rho: f64 = f.iter().sum();
+    let solids = vec![solid(0.75, first), solid(0.25, second)];
+    let post = collide(&f, mrt(0.8), None, SolidPhase { solids, ..SolidPhase::default() });
+    // Full cell: momentum of the mean velocity, weighted 3 : 1.
+    assert!((momentum(&post) - rho * (0.75 * first + 0.25 * second)).norm() < 2e-15);
+}
+
+#[test]
+fn noble_torczynski_weight_runs_from_zero_to_one_and_equals_the_fraction_where_it_must() {
+    let weight = |epsilon, tau| Weighting::NobleTorczynski.weight(epsilon, tau);
+    for tau in [0.5 + 1e-9, 0.6, 1.0, 100.0] {
+        assert_eq!(weight(0.0, tau), 0.0);
+        assert_eq!(weight(1.0, tau), 1.0);
+        for step in 0..100 {
+            let epsilon = f64::from(step) / 100.0;
+            assert!(weight(epsilon + 0.01, tau) > weight(epsilon, tau));
+            assert!(weight(epsilon, tau) <= epsilon);
+        }
+    }
+    // tau -> infinity: B -> epsilon, with an error epsilon (1 - epsilon)/(tau - 1/2).
+    assert!((weight(0.5, 1e6) - 0.5).abs() < 1e-6);
+    // Worked by hand: epsilon = 1/2, tau = 1: (1/2 · 1/2)/(1/2 + 1/2) = 1/4, exactly.
+    assert_eq!(weight(0.5, 1.0), 0.25);
+}
+
+#[test]
+fn fluid_that_moves_with_the_solid_feels_nothing() {
+    let mut random = Random(7);
+    for operator in OPERATORS {
+        for collision in [Collision::Srt { tau: 0.6 }, mrt(0.6)] {
+            let (rho, u) = (random.between(0.9, 1.1), random.vector(0.2));
+            let f = equilibrium(rho, &u);
+            let prepared =
+                operator.prepare(&CellState { f: &f, rho, u }, &CollisionOperator::new(&collision));
+            let lambda = prepared.lambda(&u);
+            // Each entry is a difference of equal numbers below 0.4; M⁻¹ S (m - m_eq) adds
+            // the round-off of two matrix products.
+            assert!(largest_difference(&lambda, &[0.0; Q]) < 1e-15, "{operator:?}");
+        }
+    }
+}
+
+#[test]
+fn sphere_that_drifts_with_a_uniform_stream_leaves_it_uniform() {
+    let u = Vec3::new(0.05, -0.03, 0.02);
+    let sphere = Solid { velocity: u, ..Solid::fixed_sphere(Vec3::new(4.3, 3.9, 4.1), 2.5) };
+    let domain = Domain::new([8, 8, 8], Faces::PERIODIC).unwrap();
+    for operator in OPERATORS {
+        let phase = SolidPhase { solids: vec![sphere.clone()], operator, ..SolidPhase::default() };
+        let setup = Setup::fluid(domain.clone(), mrt(0.6)).with_solids(phase);
+        let mut solver = Solver::starting_from(setup, |_| (1.0, u)).unwrap();
+        common::Budget::oracle(100_000).run(&mut solver, 80);
+        // A uniform stream is a fixed point of every part of the step: what remains is round-off,
+        // 1e-16 a step in each of 8^3 cells.
+        let largest = solver.velocity_field().iter().map(|v| (v - u).norm()).fold(0.0, f64::max);
+        assert!(largest < 1e-13, "{operator:?}: {largest:e}");
+        assert!(solver.loads()[0].force.norm() < 1e-12);
+    }
+}
