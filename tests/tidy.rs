@@ -1,0 +1,81 @@
+//! The house rules that a machine can hold.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// All files below `folder` whose name ends in one of `endings`, sorted.
+fn files(folder: &str, endings: &[&str]) -> Vec<PathBuf> {
+    fn gather(folder: &Path, endings: &[&str], found: &mut Vec<PathBuf>) {
+        for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                gather(&entry, endings, found);
+            } else if endings.iter().any(|ending| entry.to_string_lossy().ends_with(ending)) {
+                found.push(entry);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    gather(&Path::new(env!("CARGO_MANIFEST_DIR")).join(folder), endings, &mut found);
+    found.sort();
+    found
+}
+
+fn text(path: &Path) -> String {
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+#[test]
+fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
+    const CALL: &str = "Budget::oracle(";
+    let mut sum = 0;
+    for path in files("tests", &[".rs"]) {
+        let text = text(&path);
+        for call in text.split(CALL).skip(1) {
+            let literal = call.split(')').next().unwrap();
+            match literal.replace('_', "").parse::<u64>() {
+                Ok(updates) => sum += updates,
+                // Its own definition, and this file.
+                Err(_) => assert!(
+                    path.ends_with("tests/common/mod.rs") || path.ends_with("tests/tidy.rs"),
+                    "{}: declare the budget as a literal, not {literal:?}",
+                    path.display()
+                ),
+            }
+        }
+    }
+    // Six minutes of the oracle at a few million cell updates a second.
+    assert!(sum <= 1_000_000_000, "the tests declare {sum} cell updates of the oracle");
+}
+
+#[test]
+fn every_test_named_in_the_errata_exists() {
+    let errata = text(&files("reference", &["ERRATA.md"])[0]);
+    let mut named = 0;
+    for row in errata.lines().filter(|line| line.starts_with('|')) {
+        let Some((_, tests)) = row.split_once("`tests/") else { continue };
+        let (file, names) = tests.split_once('`').unwrap();
+        let Some(names) = names.strip_prefix(": ") else { continue };
+        let code = text(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(file));
+        for name in names.split('|').next().unwrap().split(", ") {
+            let name = name.trim().trim_matches('`');
+            assert!(code.contains(&format!("fn {name}()")), "{file} has no test {name}");
+            named += 1;
+        }
+    }
+    assert!(named >= 9, "only {named} tests are named: has the table changed its form?");
+}
+
+#[test]
+fn reference_knows_nothing_of_scenes_gpus_or_reports_and_the_report_nothing_of_solvers() {
+    for (package, foreign) in [
+        ("reference", &["psmrt::", "psmrt_report", "wgpu", "serde", "toml"] as &[&str]),
+        ("report", &["psmrt::", "psmrt_reference", "wgpu"]),
+    ] {
+        for path in files(package, &[".rs", "Cargo.toml"]) {
+            let text = text(&path);
+            for word in foreign {
+                assert!(!text.contains(word), "{} mentions {word}", path.display());
+            }
+        }
+    }
+}
