@@ -1,9 +1,13 @@
 //! Solid fraction of a sphere in a cell: exact, and sampled.
 //!
-//! Expected values come from closed forms or from the quadrature at the end of this file, which
-//! takes another route (cross-sections, integrated along z) than the code under test (cones).
+//! Expected values come from closed forms or from `common/sphere_quadrature.rs`, which takes
+//! another route (cross-sections, integrated along z) than the code under test (cones).
 //! No cell updates: geometry only.
 
+mod common;
+
+use common::random::Random;
+use common::sphere_quadrature::{STEP, fraction_by_quadrature, quadrature_with_step};
 use proptest::prelude::*;
 use psmrt_reference::coverage::{exact_fraction, sampled_fraction};
 use psmrt_reference::lattice::Vec3;
@@ -36,7 +40,7 @@ fn fractions_of_all_cells_add_up_to_the_volume_of_the_sphere() {
         let volume = 4.0 / 3.0 * PI * radius * radius * radius;
         let corner_edge_face_middle = [[0.5, 0.5, 0.5], [0.5, 0.5, 0.0], [0.5, 0.0, 0.0], [0.0; 3]];
         let special = corner_edge_face_middle.map(Vec3::from);
-        let anywhere = (0..25).map(|_| random.vector() * 0.5);
+        let anywhere = (0..25).map(|_| anywhere(&mut random) * 0.5);
         for position in special.into_iter().chain(anywhere) {
             let sum = sum_over_cells(&position, radius);
             // Why: up to 4,000 cut cells, each off by at most rounding(15) = 4e-13, in either
@@ -68,7 +72,7 @@ fn sum_over_cells(position: &Vec3, radius: f64) -> f64 {
 fn fraction_agrees_with_a_quadrature_over_cross_sections() {
     let mut random = Random(2);
     for _ in 0..2000 {
-        let (centre, radius) = random.cut();
+        let (centre, radius) = cut(&mut random);
         let expected = fraction_by_quadrature(&centre, radius);
         assert_close(exact_fraction(&centre, radius), expected, quadrature_error(radius));
     }
@@ -78,7 +82,7 @@ fn fraction_agrees_with_a_quadrature_over_cross_sections() {
 fn the_quadrature_does_not_depend_on_the_number_of_its_points() {
     let mut random = Random(3);
     for _ in 0..200 {
-        let (centre, radius) = random.cut();
+        let (centre, radius) = cut(&mut random);
         let coarse = fraction_by_quadrature(&centre, radius);
         let fine = quadrature_with_step(&centre, radius, STEP / 2.0);
         assert_close(coarse, fine, quadrature_error(radius));
@@ -166,7 +170,7 @@ fn cells_wholly_outside_or_inside_have_exactly_0_or_1() {
 fn all_48_symmetries_of_the_cube_hold_to_the_last_bit() {
     let mut random = Random(4);
     for _ in 0..200 {
-        let (centre, radius) = random.cut();
+        let (centre, radius) = cut(&mut random);
         let fraction = exact_fraction(&centre, radius);
         for image in images(&centre) {
             assert_eq!(exact_fraction(&image, radius), fraction, "{centre:?} {image:?} {radius}");
@@ -178,7 +182,7 @@ fn all_48_symmetries_of_the_cube_hold_to_the_last_bit() {
 fn the_quadrature_has_the_48_symmetries_that_the_exact_fraction_assumes() {
     let mut random = Random(5);
     for _ in 0..20 {
-        let (centre, radius) = random.cut();
+        let (centre, radius) = cut(&mut random);
         let fraction = exact_fraction(&centre, radius);
         for image in images(&centre) {
             let expected = fraction_by_quadrature(&image, radius);
@@ -354,7 +358,7 @@ fn sampled_fraction_counts_the_midpoints_of_sub_cells() {
 fn sampling_keeps_the_48_symmetries_of_the_cube_to_the_last_bit() {
     let mut random = Random(6);
     // Besides random cuts, spheres through the cell's centre, a sample point: rounding decides.
-    let mut cuts: Vec<_> = (0..200).map(|_| random.cut()).collect();
+    let mut cuts: Vec<_> = (0..200).map(|_| cut(&mut random)).collect();
     cuts.extend([(Vec3::new(0.1, 0.2, 0.2), 0.3), (Vec3::new(0.6, 0.9, 1.8), 2.1)]);
     for (centre, radius) in cuts {
         for n in [1, 2, 3, 5, 10] {
@@ -370,7 +374,7 @@ fn sampling_keeps_the_48_symmetries_of_the_cube_to_the_last_bit() {
 fn the_error_of_sampling_falls_with_the_square_of_n() {
     let mut random = Random(7);
     for radius in [2.0, 8.0, 20.0] {
-        let cuts: Vec<_> = (0..4000).map(|_| random.cut_of_radius(radius)).collect();
+        let cuts: Vec<_> = (0..4000).map(|_| cut_of_radius(&mut random, radius)).collect();
         for n in 2..=10 {
             let error = |c: &Vec3| sampled_fraction(c, radius, n) - exact_fraction(c, radius);
             let mean_square =
@@ -389,7 +393,7 @@ fn the_error_of_sampling_falls_with_the_square_of_n() {
 fn sampling_with_many_points_approaches_the_exact_fraction() {
     let mut random = Random(8);
     for _ in 0..100 {
-        let (centre, radius) = random.cut();
+        let (centre, radius) = cut(&mut random);
         let (n, exact) = (50, exact_fraction(&centre, radius));
         // Why: a line of points is in the sphere for one stretch, and counting points misplaces
         // either end of it by half a spacing at most: 1/n if all lines err alike, as along a face.
@@ -422,121 +426,29 @@ fn images(v: &Vec3) -> Vec<Vec3> {
     images
 }
 
-/// A linear congruential generator with Knuth's constants: the same numbers on every machine.
-struct Random(u64);
+/// Uniform in the cube -1..1.
+fn anywhere(random: &mut Random) -> Vec3 {
+    random.vector(1.0)
+}
 
-impl Random {
-    /// Uniform in 0..1.
-    fn number(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
+/// A sphere whose surface cuts the cell: its centre, and a radius from 0.05 to 50.
+fn cut(random: &mut Random) -> (Vec3, f64) {
+    let radius = 0.05 * 1000.0_f64.powf(random.between(0.0, 1.0));
+    (cut_of_radius(random, radius), radius)
+}
 
-    /// Uniform in the cube -1..1.
-    fn vector(&mut self) -> Vec3 {
-        Vec3::from_fn(|_, _| 2.0 * self.number() - 1.0)
-    }
-
-    /// A sphere whose surface cuts the cell: its centre, and a radius from 0.05 to 50.
-    fn cut(&mut self) -> (Vec3, f64) {
-        let radius = 0.05 * 1000.0_f64.powf(self.number());
-        (self.cut_of_radius(radius), radius)
-    }
-
-    /// Centre of a sphere of `radius` whose surface cuts the cell.
-    fn cut_of_radius(&mut self, radius: f64) -> Vec3 {
-        loop {
-            let inward = self.vector();
-            if !(0.01..1.0).contains(&inward.norm()) {
-                continue; // a direction without preference for the cube's corners
-            }
-            let distance = radius + 2.0 * self.number() - 1.0;
-            let centre = inward.normalize() * distance;
-            let corners =
-                images(&Vec3::repeat(0.5)).into_iter().map(|corner| (corner - centre).norm());
-            let nearest = centre.map(|c| (c.abs() - 0.5).max(0.0)).norm();
-            if nearest < radius && corners.fold(0.0, f64::max) > radius {
-                return centre;
-            }
+/// Centre of a sphere of `radius` whose surface cuts the cell.
+fn cut_of_radius(random: &mut Random, radius: f64) -> Vec3 {
+    loop {
+        let inward = anywhere(random);
+        if !(0.01..1.0).contains(&inward.norm()) {
+            continue; // a direction without preference for the cube's corners
+        }
+        let centre = inward.normalize() * (radius + random.between(-1.0, 1.0));
+        let corners = images(&Vec3::repeat(0.5)).into_iter().map(|corner| (corner - centre).norm());
+        let nearest = centre.map(|c| (c.abs() - 0.5).max(0.0)).norm();
+        if nearest < radius && corners.fold(0.0, f64::max) > radius {
+            return centre;
         }
     }
-}
-
-// --- The quadrature ----------------------------------------------------------------------------
-
-/// Solid fraction by integrating the cross-sections of sphere and cell along z.
-fn fraction_by_quadrature(centre: &Vec3, radius: f64) -> f64 {
-    quadrature_with_step(centre, radius, STEP)
-}
-
-fn quadrature_with_step(centre: &Vec3, radius: f64, step: f64) -> f64 {
-    let x = [-0.5 - centre.x, 0.5 - centre.x];
-    let y = [-0.5 - centre.y, 0.5 - centre.y];
-    let z = [(-0.5 - centre.z).max(-radius), (0.5 - centre.z).min(radius)];
-    // The cross-section is smooth in z but where its circle touches a side or passes a corner.
-    let mut squares = vec![0.0];
-    squares.extend(x.iter().chain(&y).map(|side| side * side));
-    squares.extend(x.iter().flat_map(|x| y.iter().map(move |y| x * x + y * y)));
-    let heights = squares.iter().map(|square| radius * radius - square);
-    let bounds = panels(z, heights);
-    let section = |z: f64| circle_and_rectangle((radius * radius - z * z).max(0.0).sqrt(), x, y);
-    bounds.windows(2).map(|panel| integral(panel[0], panel[1], step, section)).sum()
-}
-
-/// Area that a circle of radius `r` about the origin shares with a rectangle.
-fn circle_and_rectangle(r: f64, x: [f64; 2], y: [f64; 2]) -> f64 {
-    // ∫ sqrt(r² - x²) dx = [x sqrt(r² - x²) + r² asin(x/r)] / 2
-    let half_chord = |x: f64| (r * r - x * x).max(0.0).sqrt();
-    let below = |x: f64| 0.5 * (x * half_chord(x) + r * r * (x / r).clamp(-1.0, 1.0).asin());
-    let side = [x[0].max(-r), x[1].min(r)];
-    let bounds = panels(side, y.iter().map(|y| r * r - y * y));
-    let strip = |p: f64, q: f64| {
-        let arc = below(q) - below(p);
-        let middle = half_chord(0.5 * (p + q));
-        // The strip ends at the circle or at the rectangle, whichever comes first.
-        let end = |circle: f64, arc: f64| {
-            if circle < y[0] {
-                y[0] * (q - p)
-            } else if circle > y[1] {
-                y[1] * (q - p)
-            } else {
-                arc
-            }
-        };
-        end(middle, arc) - end(-middle, -arc)
-    };
-    bounds.windows(2).map(|panel| strip(panel[0], panel[1])).sum()
-}
-
-/// Ends of an interval, and the square roots, of either sign, that lie within it. Empty where the
-/// interval is.
-fn panels([low, high]: [f64; 2], squares: impl Iterator<Item = f64>) -> Vec<f64> {
-    if low >= high {
-        return Vec::new();
-    }
-    let roots = squares.filter(|&square| square > 0.0).map(f64::sqrt);
-    let within = roots.flat_map(|root| [root, -root]).filter(|&root| low < root && root < high);
-    let mut bounds: Vec<f64> = within.chain([low, high]).collect();
-    bounds.sort_by(f64::total_cmp);
-    bounds
-}
-
-/// Step of the quadrature in its own variable.
-const STEP: f64 = 1.0 / 16.0;
-
-/// `∫ f dz` from `p` to `q`; `f` may have any root at either end.
-///
-/// Source: Takahasi & Mori, Publ. RIMS Kyoto Univ. 9, 721 (1974): tanh-sinh quadrature.
-fn integral(p: f64, q: f64, step: f64, f: impl Fn(f64) -> f64) -> f64 {
-    // z(t) = (p + q)/2 + (q - p)/2 tanh(π/2 sinh t); beyond |t| = 3.25 the weight is below 1e-16
-    let mut t = -3.25;
-    let mut sum = 0.0;
-    while t <= 3.25 {
-        let u = 0.5 * PI * f64::sinh(t);
-        let slope = 0.5 * PI * t.cosh() / (u.cosh() * u.cosh());
-        sum += step * slope * f(0.5 * (p + q) + 0.5 * (q - p) * u.tanh());
-        t += step;
-    }
-    0.5 * (q - p) * sum
 }

@@ -1,0 +1,1 @@
+//! Grains: contact, neighbours, motion (being written).
