@@ -43,3 +43,28 @@ fn one_two_and_seven_threads_give_the_same_bits() {
         assert_eq!(loads, other_loads, "loads differ on {threads} threads");
     }
 }
+
+#[test]
+fn coverage_of_moved_solids_is_what_a_fresh_list_has() {
+    use psmrt_reference::coverage::{Coverage, CoverageRule};
+    let domain = Domain::new([9, 8, 7], Faces::PERIODIC).unwrap();
+    let mut random = common::random::Random(1);
+    let mut solids: Vec<Solid> = (0..6)
+        .map(|i| {
+            let centre = random.vector(6.0);
+            let velocity = if i % 2 == 0 { random.vector(0.4) } else { Vec3::zeros() };
+            Solid { velocity, ..Solid::fixed_sphere(centre, random.between(0.5, 4.9)) }
+        })
+        .collect();
+    let mut coverage = Coverage::new(&domain, &solids, CoverageRule::Exact);
+    for _ in 0..20 {
+        for solid in &mut solids {
+            solid.centre += solid.velocity;
+        }
+        coverage.update(&domain, &solids, CoverageRule::Exact, Solid::moves);
+        let fresh = Coverage::new(&domain, &solids, CoverageRule::Exact);
+        for cell in 0..domain.cell_count() {
+            assert_eq!(coverage.shares(cell), fresh.shares(cell));
+        }
+    }
+}

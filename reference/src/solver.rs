@@ -126,7 +126,7 @@ impl Solver {
         for solid in phase.solids.iter_mut().filter(|solid| solid.moves()) {
             solid.centre += solid.velocity;
         }
-        coverage.update(&self.setup.domain, &phase.solids, phase.coverage);
+        coverage.update(&self.setup.domain, &phase.solids, phase.coverage, Solid::moves);
     }
 
     /// Steps made so far.

@@ -13,6 +13,7 @@ pub use sphere::exact_fraction;
 use crate::domain::Domain;
 use crate::lattice::Vec3;
 use crate::solids::{Shape, Solid};
+use rayon::prelude::*;
 
 /// How the solid fraction of a sphere in a cell is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,38 +53,51 @@ pub struct Share {
 const BARE: u32 = u32::MAX;
 
 /// The shares of all cells that a solid touches.
+///
+/// Within a cell they are ordered by the number of the solid, so that sums over them do not depend on
+/// how the solids came there.
 #[derive(Clone, Debug)]
 pub struct Coverage {
     /// Cell index → position in `shares`, or `BARE`.
     slot: Vec<u32>,
-    /// Cell index and its shares, in the order in which the solids met the cells.
-    shares: Vec<(usize, Vec<Share>)>,
+    /// Shares of the cells that have some; empty ones are listed in `free`.
+    shares: Vec<Vec<Share>>,
+    free: Vec<u32>,
+    /// For each solid, the cells that it touches.
+    touched: Vec<Vec<usize>>,
 }
 
 impl Coverage {
     /// Lists what `solids` cover of `domain`.
     pub fn new(domain: &Domain, solids: &[Solid], rule: CoverageRule) -> Self {
-        let mut coverage = Coverage { slot: vec![BARE; domain.cell_count()], shares: Vec::new() };
-        coverage.update(domain, solids, rule);
+        let mut coverage = Coverage {
+            slot: vec![BARE; domain.cell_count()],
+            shares: Vec::new(),
+            free: Vec::new(),
+            touched: vec![Vec::new(); solids.len()],
+        };
+        coverage.update(domain, solids, rule, |_| true);
         coverage
     }
 
-    /// Lists it again after solids have moved. Costs nothing for cells that no solid touched.
-    pub fn update(&mut self, domain: &Domain, solids: &[Solid], rule: CoverageRule) {
-        for (cell, _) in self.shares.drain(..) {
-            self.slot[cell] = BARE;
-        }
-        for (number, solid) in solids.iter().enumerate() {
-            match &solid.shape {
-                Shape::Sphere { radius } => {
-                    self.add_sphere(domain, number, &solid.centre, *radius, rule);
-                }
-                Shape::Cells { fractions } => {
-                    for &(cell, epsilon) in fractions.iter().filter(|(_, epsilon)| *epsilon > 0.0) {
-                        let arm = domain.centre(domain.coordinates(cell)) - solid.centre;
-                        self.add(cell, Share { solid: number, epsilon, arm });
-                    }
-                }
+    /// Lists it again for the solids that have moved, visiting only cells that these touch.
+    pub fn update(
+        &mut self,
+        domain: &Domain,
+        solids: &[Solid],
+        rule: CoverageRule,
+        moved: impl Fn(&Solid) -> bool + Sync,
+    ) {
+        let covered: Vec<(usize, Vec<(usize, Share)>)> = solids
+            .par_iter()
+            .enumerate()
+            .filter(|(_, solid)| moved(solid))
+            .map(|(number, solid)| (number, covered_by(domain, number, solid, rule)))
+            .collect();
+        for (number, shares) in covered {
+            self.remove(number);
+            for (cell, share) in shares {
+                self.add(cell, share);
             }
         }
     }
@@ -92,7 +106,7 @@ impl Coverage {
     pub fn shares(&self, cell: usize) -> &[Share] {
         match self.slot[cell] {
             BARE => &[],
-            slot => &self.shares[slot as usize].1,
+            slot => &self.shares[slot as usize],
         }
     }
 
@@ -101,46 +115,87 @@ impl Coverage {
         self.shares(cell).iter().map(|share| share.epsilon).sum::<f64>().min(1.0)
     }
 
-    fn add_sphere(
-        &mut self,
-        domain: &Domain,
-        solid: usize,
-        centre: &Vec3,
-        radius: f64,
-        rule: CoverageRule,
-    ) {
-        let range =
-            |axis: usize| first_cell(centre[axis] - radius)..=first_cell(centre[axis] + radius);
-        for z in range(2) {
-            for y in range(1) {
-                for x in range(0) {
-                    let Some(inside) = domain.locate([x, y, z]) else { continue };
-                    // The cell's centre before wrapping: the arm is that of this image.
-                    let cell_centre = Vec3::new(x as f64, y as f64, z as f64).add_scalar(0.5);
-                    let arm = cell_centre - centre;
-                    let epsilon = rule.fraction(&-arm, radius);
-                    if epsilon > 0.0 {
-                        self.add(domain.index(inside), Share { solid, epsilon, arm });
-                    }
-                }
+    /// Removes solid number `solid` from all cells.
+    fn remove(&mut self, solid: usize) {
+        for cell in std::mem::take(&mut self.touched[solid]) {
+            let slot = self.slot[cell];
+            if slot == BARE {
+                continue; // a second image in the same cell, removed with the first
+            }
+            let shares = &mut self.shares[slot as usize];
+            shares.retain(|share| share.solid != solid);
+            if shares.is_empty() {
+                self.free.push(slot);
+                self.slot[cell] = BARE;
             }
         }
     }
 
     fn add(&mut self, cell: usize, share: Share) {
         if self.slot[cell] == BARE {
-            // The box has fewer than 2^32 - 1 cells, so the position fits.
-            #[expect(clippy::cast_possible_truncation, reason = "Domain::new bounds the cells")]
-            let position = self.shares.len() as u32;
-            self.slot[cell] = position;
-            self.shares.push((cell, Vec::with_capacity(1)));
+            self.slot[cell] = self.free.pop().unwrap_or_else(|| {
+                self.shares.push(Vec::with_capacity(1));
+                // The box has fewer than 2^32 - 1 cells, so the position fits.
+                #[expect(clippy::cast_possible_truncation, reason = "Domain::new bounds the cells")]
+                let position = self.shares.len() as u32 - 1;
+                position
+            });
         }
-        self.shares[self.slot[cell] as usize].1.push(share);
+        let shares = &mut self.shares[self.slot[cell] as usize];
+        let position = shares.partition_point(|other| other.solid <= share.solid);
+        shares.insert(position, share);
+        self.touched[share.solid].push(cell);
     }
+}
+
+/// The cells that one solid covers.
+fn covered_by(
+    domain: &Domain,
+    number: usize,
+    solid: &Solid,
+    rule: CoverageRule,
+) -> Vec<(usize, Share)> {
+    match &solid.shape {
+        Shape::Sphere { radius } => covered_by_sphere(domain, number, &solid.centre, *radius, rule),
+        Shape::Cells { fractions } => fractions
+            .iter()
+            .filter(|(_, epsilon)| *epsilon > 0.0)
+            .map(|&(cell, epsilon)| {
+                let arm = domain.centre(domain.coordinates(cell)) - solid.centre;
+                (cell, Share { solid: number, epsilon, arm })
+            })
+            .collect(),
+    }
+}
+
+fn covered_by_sphere(
+    domain: &Domain,
+    solid: usize,
+    centre: &Vec3,
+    radius: f64,
+    rule: CoverageRule,
+) -> Vec<(usize, Share)> {
+    let mut covered = Vec::new();
+    let range = |axis: usize| cell_at(centre[axis] - radius)..=cell_at(centre[axis] + radius);
+    for z in range(2) {
+        for y in range(1) {
+            for x in range(0) {
+                let Some(inside) = domain.locate([x, y, z]) else { continue };
+                // The cell's centre before wrapping: the arm is that of this image.
+                let cell_centre = Vec3::new(x as f64, y as f64, z as f64).add_scalar(0.5);
+                let arm = cell_centre - centre;
+                let epsilon = rule.fraction(&-arm, radius);
+                if epsilon > 0.0 {
+                    covered.push((domain.index(inside), Share { solid, epsilon, arm }));
+                }
+            }
+        }
+    }
+    covered
 }
 
 /// The cell that contains a coordinate along an axis.
 #[expect(clippy::cast_possible_truncation, reason = "coordinates of solids are far below 2^63")]
-fn first_cell(coordinate: f64) -> i64 {
+fn cell_at(coordinate: f64) -> i64 {
     coordinate.floor() as i64
 }
