@@ -61,7 +61,7 @@ fn coverage_of_moved_solids_is_what_a_fresh_list_has() {
         for solid in &mut solids {
             solid.centre += solid.velocity;
         }
-        coverage.update(&domain, &solids, CoverageRule::Exact, Solid::moves);
+        coverage.update(&domain, &solids, CoverageRule::Exact);
         let fresh = Coverage::new(&domain, &solids, CoverageRule::Exact);
         for cell in 0..domain.cell_count() {
             assert_eq!(coverage.shares(cell), fresh.shares(cell));

@@ -169,6 +169,17 @@ const MAX_DENSITY_DRIFT: f64 = 0.1;
 /// nearly incompressible.
 const MAX_DENSITY_FACTOR: f64 = 2.0;
 
+/// What a guard has seen so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evidence {
+    /// Mean density at the first look, if there was one.
+    pub first_mean_density: Option<f64>,
+    /// Mean density at the last look.
+    pub last_mean_density: f64,
+    /// Largest speed at the last look.
+    pub last_max_speed: f64,
+}
+
 /// Keeps what it saw when all was well, as evidence for when it is not.
 #[derive(Clone, Debug)]
 pub struct Guard {
@@ -221,6 +232,21 @@ impl Guard {
         }
         let (symptom, cause) = (Symptom::MeanDensity(ratio), self.probable_cause(setup, step));
         Err(Stopped { step, cell: [0, 0, 0], symptom, cause })
+    }
+
+    /// The evidence so far, for a run that is to go on later.
+    pub fn evidence(&self) -> Evidence {
+        Evidence {
+            first_mean_density: self.first_mean_density,
+            last_mean_density: self.last_mean_density,
+            last_max_speed: self.last_max_speed,
+        }
+    }
+
+    /// A guard that goes on from the evidence of an earlier one.
+    pub fn going_on_from(settings: GuardSettings, evidence: Evidence) -> Self {
+        let Evidence { first_mean_density, last_mean_density, last_max_speed } = evidence;
+        Guard { settings, first_mean_density, last_mean_density, last_max_speed }
     }
 
     /// Mean density at the last look over mean density at the first.

@@ -6,12 +6,23 @@ use crate::coverage::Coverage;
 use crate::domain::Domain;
 use crate::equilibrium::equilibrium;
 use crate::forcing::forced_velocity;
-use crate::guard::{Guard, Stopped};
+use crate::guard::{Evidence, Guard, Stopped};
 use crate::lattice::{Populations, Vec3, density, momentum};
 use crate::planes::map_planes;
 use crate::setup::{Setup, SetupError};
 use crate::solids::{Load, Solid};
 use crate::streaming::stream;
+
+/// What a solver carries from step to step besides its set-up and its populations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Memory {
+    /// Steps made so far.
+    pub steps: u64,
+    /// Force and torque on each solid during the last step.
+    pub loads: Vec<Load>,
+    /// What the guard has seen.
+    pub evidence: Evidence,
+}
 
 /// The oracle: the fluid of one box, and the solids that move through it as prescribed.
 #[derive(Clone, Debug)]
@@ -60,6 +71,25 @@ impl Solver {
         Ok(Self::with_operator(setup, operator, f))
     }
 
+    /// A solver that goes on, bit for bit, where another was: with the set-up, the populations and
+    /// the memory that [`Self::setup`], [`Self::populations`] and [`Self::memory`] gave there.
+    /// Errors if the set-up cannot be run.
+    ///
+    /// # Panics
+    /// If there are not as many sets as cells, or loads as solids: a mistake in the calling code.
+    pub fn going_on_from(
+        setup: Setup,
+        f: Vec<Populations>,
+        memory: Memory,
+    ) -> Result<Self, SetupError> {
+        let mut solver = Self::from_populations(setup, f)?;
+        assert_eq!(memory.loads.len(), solver.loads.len(), "one load per solid");
+        solver.guard = Guard::going_on_from(solver.setup.guard, memory.evidence);
+        solver.loads = memory.loads;
+        solver.steps = memory.steps;
+        Ok(solver)
+    }
+
     /// The same with a collision operator of the caller's making, which the set-up's does not
     /// check: for trying what a misprinted matrix does.
     pub fn with_operator(setup: Setup, operator: CollisionOperator, f: Vec<Populations>) -> Self {
@@ -75,12 +105,32 @@ impl Solver {
 
     /// One step. Errors when the guard, which looks every so many steps, finds the state broken.
     pub fn step(&mut self) -> Result<(), Stopped> {
+        self.advance_fluid()?;
+        if self.setup.solid_phase.iter().any(|phase| phase.solids.iter().any(Solid::moves)) {
+            self.place_solids(|_, solid| {
+                if solid.moves() {
+                    solid.centre += solid.velocity;
+                }
+            });
+        }
+        Ok(())
+    }
+
+    /// One step of the fluid, the solids staying where they are. Errors as [`Self::step`].
+    pub fn advance_fluid(&mut self) -> Result<(), Stopped> {
         self.guard.look(&self.setup, &self.f, self.steps)?;
         self.collide(); // f → f*, and the loads on the solids         (right side of Eq. 1)
         stream(&self.setup.domain, &self.post, &mut self.f); // f* → f   (left side of Eq. 1)
-        self.move_solids();
         self.steps += 1;
         Ok(())
+    }
+
+    /// Lets `place` change each solid, by its number, and lists anew what the moved ones cover.
+    pub fn place_solids(&mut self, place: impl Fn(usize, &mut Solid)) {
+        if let (Some(phase), Some(coverage)) = (&mut self.setup.solid_phase, &mut self.coverage) {
+            phase.solids.iter_mut().enumerate().for_each(|(number, solid)| place(number, solid));
+            coverage.update(&self.setup.domain, &phase.solids, phase.coverage);
+        }
     }
 
     /// `count` steps.
@@ -114,24 +164,14 @@ impl Solver {
         }
     }
 
-    /// Carries the solids along with their prescribed velocities.
-    fn move_solids(&mut self) {
-        let (Some(phase), Some(coverage)) = (&mut self.setup.solid_phase, &mut self.coverage)
-        else {
-            return;
-        };
-        if !phase.solids.iter().any(Solid::moves) {
-            return;
-        }
-        for solid in phase.solids.iter_mut().filter(|solid| solid.moves()) {
-            solid.centre += solid.velocity;
-        }
-        coverage.update(&self.setup.domain, &phase.solids, phase.coverage, Solid::moves);
-    }
-
     /// Steps made so far.
     pub fn steps(&self) -> u64 {
         self.steps
+    }
+
+    /// What it carries besides its set-up and populations.
+    pub fn memory(&self) -> Memory {
+        Memory { steps: self.steps, loads: self.loads.clone(), evidence: self.guard.evidence() }
     }
 
     /// Mean density at the guard's last look over that at its first. A velocity inlet with a free
@@ -169,14 +209,6 @@ impl Solver {
     pub fn set_body_force(&mut self, body_force: Vec3) {
         if let Some(force) = &mut self.setup.body_force {
             *force = body_force;
-        }
-    }
-
-    /// Sets the prescribed motion of solid number `solid` from the next step on.
-    pub fn set_motion(&mut self, solid: usize, velocity: Vec3, spin: Vec3) {
-        if let Some(phase) = &mut self.setup.solid_phase {
-            phase.solids[solid].velocity = velocity;
-            phase.solids[solid].spin = spin;
         }
     }
 

@@ -102,6 +102,7 @@ impl Array {
 
     /// Drives the fluid until its flux changes by less than `tolerance` of itself in each of three
     /// windows; `k_exact` sets the scale of force and time. `run` makes the steps.
+    #[expect(clippy::cast_possible_truncation, reason = "numbers of steps are far below 2^53")]
     pub fn flow(
         &self,
         k_exact: f64,

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test file is a crate of its own and uses a part of this")]
 
+pub mod arrays;
 pub mod random;
 pub mod sphere_quadrature;
 

@@ -63,8 +63,8 @@ pub struct Coverage {
     /// Shares of the cells that have some; empty ones are listed in `free`.
     shares: Vec<Vec<Share>>,
     free: Vec<u32>,
-    /// For each solid, the cells that it touches.
-    touched: Vec<Vec<usize>>,
+    /// For each solid, the cells that it touches, and where its centre was when they were listed.
+    touched: Vec<(Option<Vec3>, Vec<usize>)>,
 }
 
 impl Coverage {
@@ -74,24 +74,19 @@ impl Coverage {
             slot: vec![BARE; domain.cell_count()],
             shares: Vec::new(),
             free: Vec::new(),
-            touched: vec![Vec::new(); solids.len()],
+            touched: vec![(None, Vec::new()); solids.len()],
         };
-        coverage.update(domain, solids, rule, |_| true);
+        coverage.update(domain, solids, rule);
         coverage
     }
 
     /// Lists it again for the solids that have moved, visiting only cells that these touch.
-    pub fn update(
-        &mut self,
-        domain: &Domain,
-        solids: &[Solid],
-        rule: CoverageRule,
-        moved: impl Fn(&Solid) -> bool + Sync,
-    ) {
+    pub fn update(&mut self, domain: &Domain, solids: &[Solid], rule: CoverageRule) {
+        let touched = &self.touched;
         let covered: Vec<(usize, Vec<(usize, Share)>)> = solids
             .par_iter()
             .enumerate()
-            .filter(|(_, solid)| moved(solid))
+            .filter(|(number, solid)| touched[*number].0 != Some(solid.centre))
             .map(|(number, solid)| (number, covered_by(domain, number, solid, rule)))
             .collect();
         for (number, shares) in covered {
@@ -99,6 +94,7 @@ impl Coverage {
             for (cell, share) in shares {
                 self.add(cell, share);
             }
+            self.touched[number].0 = Some(solids[number].centre);
         }
     }
 
@@ -117,7 +113,7 @@ impl Coverage {
 
     /// Removes solid number `solid` from all cells.
     fn remove(&mut self, solid: usize) {
-        for cell in std::mem::take(&mut self.touched[solid]) {
+        for cell in std::mem::take(&mut self.touched[solid].1) {
             let slot = self.slot[cell];
             if slot == BARE {
                 continue; // a second image in the same cell, removed with the first
@@ -144,7 +140,7 @@ impl Coverage {
         let shares = &mut self.shares[self.slot[cell] as usize];
         let position = shares.partition_point(|other| other.solid <= share.solid);
         shares.insert(position, share);
-        self.touched[share.solid].push(cell);
+        self.touched[share.solid].1.push(cell);
     }
 }
 
