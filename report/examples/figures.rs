@@ -77,7 +77,8 @@ fn drag_against_tau(study: &Rows) -> Result<Figure, Box<dyn Error>> {
                 ("operator", "bounce_back"),
             ]);
             let errors = points(study, &wanted, "tau", |e| 100.0 * e, "relative_error")?;
-            figure = figure.with(Series::line_points(format!("{weight_label}, {rule_label}"), errors));
+            figure =
+                figure.with(Series::line_points(format!("{weight_label}, {rule_label}"), errors));
         }
     }
     Ok(figure
@@ -103,8 +104,7 @@ fn drag_against_grid(study: &Rows) -> Result<Figure, Box<dyn Error>> {
                 ("operator", "bounce_back"),
             ]);
             let column = "relative_error";
-            let errors =
-                points(study, &wanted, "cells_per_diameter", |e| 100.0 * e.abs(), column)?;
+            let errors = points(study, &wanted, "cells_per_diameter", |e| 100.0 * e.abs(), column)?;
             let label = format!("{weight_label}, τ = {tau}");
             figure = figure.with(Series::line_points(label, errors));
         }

@@ -27,6 +27,7 @@
 //! |---|---|
 //! | `figure.rs`, `series.rs` | what a caller fills in |
 //! | `fit.rs` | power laws: reference slopes and fitted orders |
+//! | `map.rs` | maps of a plane, value by value |
 //! | `check.rs`, `error.rs` | what is refused, and the words for it |
 //! | `span.rs`, `ticks.rs`, `decimal.rs` | values to positions; tick marks and their labels |
 //! | `layout.rs`, `legend.rs`, `text.rs` | where things go |
@@ -49,6 +50,7 @@ mod fit;
 mod layout;
 mod legend;
 mod look;
+mod map;
 mod marks;
 mod notes;
 mod palette;
@@ -62,6 +64,7 @@ mod write;
 pub use error::PlotError;
 pub use figure::{Axis, Figure, Panel, Scale};
 pub use fit::PowerLaw;
+pub use map::{Map, render_map};
 pub use render::render_svg;
 pub use series::{Marker, Series, Style};
 pub use write::write_svg;

@@ -43,3 +43,33 @@ pub(crate) const GRID: RGBColor = RGBColor(0xDD, 0xDD, 0xDD);
 pub(crate) const FAINT_GRID: RGBColor = RGBColor(0xEF, 0xEF, 0xEF);
 pub(crate) const ZERO: RGBColor = RGBColor(0xA0, 0xA0, 0xA0);
 pub(crate) const PAPER: RGBColor = RGBColor(0xFF, 0xFF, 0xFF);
+
+/// Viridis (van der Walt and Smith, 2015) at ten steps: even in lightness, also for the colour-blind.
+const VIRIDIS: [[u8; 3]; 10] = [
+    [0x44, 0x01, 0x54],
+    [0x48, 0x28, 0x78],
+    [0x3E, 0x49, 0x89],
+    [0x31, 0x68, 0x8E],
+    [0x26, 0x82, 0x8E],
+    [0x1F, 0x9E, 0x89],
+    [0x35, 0xB7, 0x79],
+    [0x6E, 0xCE, 0x58],
+    [0xB5, 0xDE, 0x2B],
+    [0xFD, 0xE7, 0x25],
+];
+
+/// The colour of a value on a map, from 0 (dark) to 1 (light).
+pub(crate) fn map_colour(fraction: f64) -> RGBColor {
+    let last = VIRIDIS.len() - 1;
+    let along = fraction.clamp(0.0, 1.0) * last as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 9")]
+    let step = (along as usize).min(last - 1);
+    let part = along - step as f64;
+    let mix = |i: usize| {
+        let (a, b) = (f64::from(VIRIDIS[step][i]), f64::from(VIRIDIS[step + 1][i]));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+        let mixed = (a + part * (b - a)).round() as u8;
+        mixed
+    };
+    RGBColor(mix(0), mix(1), mix(2))
+}

@@ -302,3 +302,28 @@ fn a_path_that_cannot_be_written_is_an_error_that_names_it() {
     assert!(told(&missing).contains("a.svg"));
     assert!(told(&temp.join("a.png")).contains("let the name end in .svg"));
 }
+
+#[test]
+fn a_map_is_drawn_with_its_scale_and_grey_where_there_is_no_value() {
+    let map = psmrt_report::Map {
+        title: "Speed".into(),
+        x: Axis::linear("x (mm)").range(0.0, 3.0),
+        y: Axis::linear("y (mm)").range(0.0, 2.0),
+        value: Axis::linear("speed (mm/s)").range(0.0, 4.0),
+        columns: 3,
+        values: vec![Some(0.0), Some(1.0), Some(2.0), None, Some(4.0), Some(4.0)],
+        note: "after 3 s".into(),
+    };
+    let svg = psmrt_report::render_map(&map).unwrap();
+    for text in ["Speed", "x (mm)", "y (mm)", "speed (mm/s)", "after 3 s"] {
+        assert!(texts(&svg).contains(&text), "{text}");
+    }
+    assert_eq!(svg.matches("#999999").count(), 1);
+    // The two light cells are one piece; the scale has the same colour at its end.
+    assert_eq!(svg.matches("#FDE725").count(), 2);
+    let refusal = |map| psmrt_report::render_map(&map).unwrap_err().to_string();
+    let ragged = psmrt_report::Map { columns: 4, ..map.clone() };
+    assert!(refusal(ragged).contains("6 values do not fill rows of 4"));
+    let broken = psmrt_report::Map { values: vec![Some(f64::NAN); 3], ..map };
+    assert!(refusal(broken).contains("not finite"));
+}

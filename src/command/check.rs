@@ -1,0 +1,91 @@
+//! `psmrt check`: what a scene will be, cost and risk, before it runs.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use serde_json::json;
+
+use super::execute::say;
+use super::{CommandError, engine};
+use crate::estimate::{calibrate, models, numbers, warnings};
+use crate::scene::Scene;
+
+/// What `psmrt check` is asked for.
+#[derive(Clone, Debug)]
+pub struct CheckRequest {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// Changes `key=value`.
+    pub set: Vec<String>,
+    /// Whether to print one JSON object instead of text.
+    pub json: bool,
+}
+
+/// How long the calibration takes.
+const CALIBRATION: Duration = Duration::from_millis(500);
+
+/// Checks a scene. Warnings are no errors.
+pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
+    let scene = Scene::load(&request.scene, &request.set)?;
+    let mut engine = engine(&scene, &request.scene)?;
+    let (numbers, models, warnings) = (numbers(&scene), models(&scene), warnings(&scene));
+    let speed = calibrate(&scene, &mut engine, CALIBRATION);
+    if request.json {
+        let engines = speed.map(|[updates, seconds]| {
+            json!([{ "engine": "reference", "cell_updates_per_second": updates, "seconds": seconds }])
+        });
+        let all = json!({
+            "numbers": numbers, "models": models, "warnings": warnings, "engines": engines,
+        });
+        say(&all.to_string());
+        return Ok(());
+    }
+    if !scene.title.is_empty() {
+        say(&format!("{}\n", scene.title));
+    }
+    for number in &numbers {
+        let value = format!("{} {}", figure(number.value), number.unit);
+        say(format!("  {:<20}{value:<18}{}", number.name, number.note).trim_end());
+    }
+    match speed {
+        Some([updates, seconds]) => say(&format!(
+            "  {:<20}{:<18}engine reference, {:.2} million cell updates a second",
+            "time, at most",
+            duration(seconds),
+            updates / 1e6
+        )),
+        None => say("  the first steps of the calibration failed: run it to see why"),
+    }
+    say("\nmodels that are on (what is absent costs nothing)");
+    for model in &models {
+        say(&format!("  {model}"));
+    }
+    for warning in &warnings {
+        say(&format!("\nwarning: {}\n   help: {}", warning.reason, warning.remedy));
+    }
+    if warnings.is_empty() {
+        say("\nno warnings");
+    }
+    Ok(())
+}
+
+/// A number with four figures.
+fn figure(value: f64) -> String {
+    if value == value.round() && value.abs() < 1e9 {
+        format!("{value}")
+    } else if (1e-3..1e5).contains(&value.abs()) {
+        format!("{value:.4}")
+    } else {
+        format!("{value:.4e}")
+    }
+}
+
+/// Seconds in words.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.1} min", s / 60.0),
+        s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
+        s => format!("{:.1} days", s / 86_400.0),
+    }
+}

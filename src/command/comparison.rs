@@ -1,0 +1,65 @@
+//! The comparison with an exact solution: as text, table and picture.
+
+use std::path::Path;
+
+use serde_json::{Value as Json, json};
+
+use super::{CommandError, write};
+use crate::engine::Engine;
+use crate::exact::{Comparison, PlanePoiseuille};
+use crate::output::csv::{Column, Table, Value};
+use crate::output::plot;
+use crate::output::records::profile_rows;
+use crate::scene::Scene;
+
+const COLUMNS: [Column; 3] = [
+    Column::new("position", "m"),
+    Column::new("velocity", "m/s"),
+    Column::new("exact_velocity", "m/s"),
+];
+
+/// Compares the profile through the middle of the box, writes it as a table and draws it.
+pub(super) fn compare(
+    scene: &Scene,
+    exact: &PlanePoiseuille,
+    engine: &dyn Engine,
+    folder: &Path,
+) -> Result<Comparison, CommandError> {
+    let middle = scene.setup.domain.cells().map(|n| n / 2);
+    let rows = profile_rows(scene, engine, exact.across, middle);
+    let along: Vec<f64> = rows.iter().map(|row| row[2 + exact.along]).collect();
+    let comparison = Comparison::new(exact, &along);
+    // Both are made from the end of the run: a resumed run makes them again.
+    let table = folder.join("comparison.csv");
+    write(&table, |path| {
+        let mut table = Table::replace(path, &COLUMNS)?;
+        for row in &comparison.si_rows {
+            table.add(&row.map(Value::Real))?;
+        }
+        table.sync().map(|_| ())
+    })?;
+    let figure = plot::profile(&scene.title, exact, &comparison);
+    write(&folder.join("comparison.svg"), |path| psmrt_report::write_svg(&figure, path))?;
+    Ok(comparison)
+}
+
+pub(super) fn to_text(exact: &PlanePoiseuille, comparison: &Comparison) -> String {
+    format!(
+        "against the exact profile (largest velocity {:.4e} m/s, {} cells across):\n  \
+         relative L2 error {:.3e}; the wall's known slip alone makes {:.3e}\n  \
+         largest error     {:.3e} of the largest velocity",
+        exact.si_top_velocity(),
+        comparison.si_rows.len(),
+        comparison.relative_l2,
+        comparison.explained_l2,
+        comparison.relative_max
+    )
+}
+
+pub(super) fn to_json(comparison: &Comparison) -> Json {
+    json!({
+        "relative_l2": comparison.relative_l2,
+        "relative_max": comparison.relative_max,
+        "explained_l2": comparison.explained_l2,
+    })
+}

@@ -1,0 +1,144 @@
+//! What `run` and `resume` share: the loop with its progress, and what is said and kept at the end.
+
+use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+use psmrt_report::write_svg;
+use serde_json::{Value, json};
+
+use super::progress::Progress as ProgressBar;
+use super::{CommandError, comparison, info, write};
+use crate::checkpoint::Progress;
+use crate::engine::Engine;
+use crate::output::{atomic, csv, plot};
+use crate::run::{End, run as run_scene};
+use crate::scene::{Scene, What};
+
+/// Exit code after a second interruption, which does not wait for the state to be saved.
+const INTERRUPTED: i32 = 130;
+
+/// Runs a scene from where `engine` is, with its results in `folder`.
+pub(super) fn execute(
+    scene: &Scene,
+    engine: &mut dyn Engine,
+    folder: &Path,
+    resumed: Option<&Progress>,
+    json: bool,
+) -> Result<(), CommandError> {
+    let (start, first_step) = (Instant::now(), engine.steps());
+    write_facts(scene, engine, folder, first_step, start, "running")?;
+    let mut progress = ProgressBar::new(scene, json, interruption());
+    let end = run_scene(scene, engine, folder, resumed, &mut progress);
+    progress.finish();
+    let word = match &end {
+        Ok(End::Steady) => "steady",
+        Ok(End::Limit) => "limit",
+        Ok(End::Interrupted) => "interrupted",
+        Err(_) => "failed",
+    };
+    // A run that failed on a full disk should say that, not that its facts cannot be written.
+    let facts = write_facts(scene, engine, folder, first_step, start, word);
+    let (end, facts) = (end?, facts?);
+    if end == End::Interrupted {
+        return Err(CommandError::Interrupted { folder: folder.display().to_string() });
+    }
+    let found = match &scene.exact {
+        Some(exact) => Some(comparison::compare(scene, exact, engine, folder)?),
+        None => None,
+    };
+    draw_records(scene, folder)?;
+    if json {
+        let comparison = found.as_ref().map(comparison::to_json);
+        say(&json!({ "folder": folder, "run": facts, "comparison": comparison }).to_string());
+        return Ok(());
+    }
+    let steps = engine.steps();
+    let seconds = start.elapsed().as_secs_f64();
+    let updates = (steps - first_step) as f64 * scene.setup.domain.cell_count() as f64;
+    say(&format!(
+        "{} after {steps} steps ({:.4e} s); {seconds:.2} s of computing, {:.2} million cell updates \
+         a second",
+        if end == End::Steady { "steady" } else { "at its limit" },
+        steps as f64 * scene.units.si_dt,
+        updates / seconds / 1e6
+    ));
+    if let (Some(found), Some(exact)) = (&found, &scene.exact) {
+        say(&comparison::to_text(exact, found));
+    }
+    say(&format!("results in {}", folder.display()));
+    Ok(())
+}
+
+/// Draws the records that a curve can show.
+fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
+    let curves =
+        scene.records.iter().filter(|r| matches!(r.what, What::Box | What::Profile { .. }));
+    for record in curves {
+        let table = folder.join(format!("{}.csv", record.name));
+        let title = format!("{} ({})", scene.title, record.name);
+        write(&table.with_extension("svg"), |path| {
+            let rows = csv::read(&table).map_err(|error| error.to_string())?;
+            let figure = match record.what {
+                What::Profile { axis, .. } => plot::line_record(&title, axis, &rows),
+                _ => plot::box_record(&title, &rows),
+            };
+            write_svg(&figure, path).map_err(|error| error.to_string())
+        })?;
+    }
+    Ok(())
+}
+
+/// Prints a line. A reader who has gone away is no reason to fail.
+pub(super) fn say(line: &str) {
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+/// Becomes true at Ctrl-C (or SIGTERM); the second one ends the process at once.
+fn interruption() -> Arc<AtomicBool> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    let set = ctrlc::set_handler(move || {
+        if flag.swap(true, Ordering::Relaxed) {
+            std::process::exit(INTERRUPTED);
+        }
+    });
+    if let Err(error) = set {
+        eprintln!("warning: Ctrl-C will not save the state: {error}");
+    }
+    interrupted
+}
+
+/// Writes `run.json`: what is needed to repeat the run, and how it went.
+fn write_facts(
+    scene: &Scene,
+    engine: &dyn Engine,
+    folder: &Path,
+    first_step: u64,
+    start: Instant,
+    state: &str,
+) -> Result<Value, CommandError> {
+    let unix_time =
+        SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |duration| duration.as_secs());
+    let facts = json!({
+        "state": state,
+        "title": scene.title,
+        "engine": engine.name(),
+        "first_step": first_step,
+        "steps": engine.steps(),
+        "wall_seconds": start.elapsed().as_secs_f64(),
+        "written_unix_time": unix_time,
+        "dt_s": scene.units.si_dt,
+        "dx_m": scene.units.si_dx,
+        "tau": scene.setup.collision.tau(),
+        "program": info::program(),
+        "machine": info::machine(),
+    });
+    let text = format!("{facts:#}\n");
+    write(&folder.join("run.json"), |path| {
+        atomic::write(path, |out| out.write_all(text.as_bytes()))
+    })?;
+    Ok(facts)
+}

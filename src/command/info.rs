@@ -1,0 +1,60 @@
+//! `psmrt info` and `psmrt schema`: what this program is, what it runs on, what scenes may hold.
+
+use serde_json::{Value, json};
+
+use super::execute::say;
+use crate::machine;
+
+/// The program: version, commit, compiler's target.
+pub(super) fn program() -> Value {
+    json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "commit": option_env!("PSMRT_COMMIT"),
+        "target": format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
+        "debug_assertions": cfg!(debug_assertions),
+    })
+}
+
+/// The machine: processor, threads, memory.
+pub(super) fn machine() -> Value {
+    json!({
+        "processor": machine::processor(),
+        "threads": machine::threads(),
+        "memory_bytes": machine::memory_bytes(),
+    })
+}
+
+/// Prints it.
+pub fn info(json: bool) {
+    let (program, machine) = (program(), machine());
+    let engines = json!([{ "name": "reference", "what": "the oracle: double precision, CPU" }]);
+    if json {
+        say(&json!({ "program": program, "machine": machine, "engines": engines }).to_string());
+        return;
+    }
+    let text = |value: &Value| match value {
+        Value::String(text) => text.clone(),
+        Value::Null => "unknown".to_owned(),
+        other => other.to_string(),
+    };
+    let gib = machine::memory_bytes().map_or_else(
+        || "unknown".to_owned(),
+        |bytes| format!("{:.1} GiB", bytes as f64 / (1_u64 << 30) as f64),
+    );
+    say(&format!("psmrt      {}", text(&program["version"])));
+    say(&format!("commit     {}", text(&program["commit"])));
+    say(&format!("target     {}", text(&program["target"])));
+    say(&format!("processor  {}", text(&machine["processor"])));
+    say(&format!("threads    {}", text(&machine["threads"])));
+    say(&format!("memory     {gib}"));
+    say("engines    reference (the oracle: double precision, CPU)");
+}
+
+/// Prints the JSON schema of scene files, or the reference for people.
+pub fn schema(markdown: bool) {
+    if markdown {
+        say(crate::scene::schema::reference().trim_end());
+    } else {
+        say(&format!("{:#}", crate::scene::schema::schema()));
+    }
+}

@@ -1,0 +1,81 @@
+//! The progress bar; plain lines where the output is not a terminal.
+
+use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::run::Watcher;
+use crate::scene::Scene;
+
+/// Time between two lines where there is no terminal.
+const LINE_EVERY: Duration = Duration::from_secs(10);
+
+/// Shows how far a run is.
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    quiet: bool,
+    cells: u64,
+    limit: u64,
+    start: Instant,
+    start_steps: Option<u64>,
+    last_line: Instant,
+    interrupted: Arc<AtomicBool>,
+}
+
+impl Progress {
+    /// For a run of `scene`, saying nothing if `quiet`; `interrupted` becomes true when the user wants to stop it.
+    pub fn new(scene: &Scene, quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
+        let limit = scene.stop.steps;
+        let show = !quiet && std::io::stderr().is_terminal();
+        let style = ProgressStyle::with_template(
+            "{bar:30} {percent:>3} % of at most {len} steps  {msg}  {elapsed} so far, {eta} left",
+        );
+        let bar = style.ok().filter(|_| show).map(|style| {
+            ProgressBar::with_draw_target(Some(limit), ProgressDrawTarget::stderr())
+                .with_style(style)
+        });
+        let (start, cells) = (Instant::now(), scene.setup.domain.cell_count() as u64);
+        Progress {
+            bar,
+            quiet,
+            cells,
+            limit,
+            start,
+            start_steps: None,
+            last_line: start,
+            interrupted,
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Watcher for Progress {
+    fn watch(&mut self, steps: u64, change: Option<f64>) -> bool {
+        let start_steps = *self.start_steps.get_or_insert(steps);
+        let seconds = self.start.elapsed().as_secs_f64().max(1e-3);
+        let rate = ((steps - start_steps) * self.cells) as f64 / seconds;
+        let change = change.map_or(String::new(), |change| format!(", change {change:.1e}"));
+        let message = format!("{:.2} million cells/s{change}", rate / 1e6);
+        if let Some(bar) = &self.bar {
+            bar.set_position(steps);
+            bar.set_message(message);
+        } else if !self.quiet && self.last_line.elapsed() > LINE_EVERY {
+            self.last_line = Instant::now();
+            let left = ((self.limit - steps) * self.cells) as f64 / rate;
+            eprintln!(
+                "step {steps} of at most {}: {message}, at most {left:.0} s left",
+                self.limit
+            );
+        }
+        !self.interrupted.load(Ordering::Relaxed)
+    }
+}

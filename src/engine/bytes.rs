@@ -1,0 +1,31 @@
+//! Numbers as bytes, little-endian: what goes in comes out with the same bits.
+
+use std::io::{self, Read, Write};
+
+use psmrt_reference::lattice::Vec3;
+
+pub(super) fn put_whole(out: &mut dyn Write, value: u64) -> io::Result<()> {
+    out.write_all(&value.to_le_bytes())
+}
+
+pub(super) fn put_real(out: &mut dyn Write, value: f64) -> io::Result<()> {
+    out.write_all(&value.to_le_bytes())
+}
+
+pub(super) fn put_vector(out: &mut dyn Write, vector: &Vec3) -> io::Result<()> {
+    vector.iter().try_for_each(|&value| put_real(out, value))
+}
+
+pub(super) fn whole(from: &mut dyn Read) -> io::Result<u64> {
+    let mut bytes = [0; 8];
+    from.read_exact(&mut bytes)?;
+    Ok(u64::from_le_bytes(bytes))
+}
+
+pub(super) fn real(from: &mut dyn Read) -> io::Result<f64> {
+    Ok(f64::from_bits(whole(from)?))
+}
+
+pub(super) fn vector(from: &mut dyn Read) -> io::Result<Vec3> {
+    Ok(Vec3::new(real(from)?, real(from)?, real(from)?))
+}

@@ -1,0 +1,65 @@
+//! What an engine can do. Every engine is asked for what is wanted, cell by cell or summed up: none
+//! is assumed to keep its fields where the caller could look at them.
+
+mod bytes;
+mod reference;
+
+use std::io::{self, Read, Write};
+
+use psmrt_reference::guard::Stopped;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::{Load, Solid};
+
+pub use reference::ReferenceEngine;
+
+/// The state of one cell, lattice units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellState {
+    /// Density.
+    pub density: f64,
+    /// Velocity half-way through a collision that sees the body force alone: `(j + G/2)/rho`.
+    pub velocity: Vec3,
+    /// How much of the cell grains cover, 0 to 1.
+    pub solid_fraction: f64,
+}
+
+/// Means and extremes over the box, lattice units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoxMeans {
+    /// Mean density.
+    pub density: f64,
+    /// Mean mass flux, solid cells included: the mean of the momentum before and after a collision.
+    pub mass_flux: Vec3,
+    /// Largest speed in any cell.
+    pub max_speed: f64,
+}
+
+/// Something that computes a scene step by step.
+pub trait Engine {
+    /// Its name, as `--engine` spells it.
+    fn name(&self) -> &'static str;
+
+    /// Steps made so far.
+    fn steps(&self) -> u64;
+
+    /// Makes `count` steps. Errors when the guard finds the state broken.
+    fn step(&mut self, count: u64) -> Result<(), Stopped>;
+
+    /// Means over the box.
+    fn box_means(&self) -> BoxMeans;
+
+    /// The state of the cells of the given numbers, in their order.
+    fn cells(&self, numbers: &[usize]) -> Vec<CellState>;
+
+    /// The solids, where they are now.
+    fn solids(&self) -> Vec<Solid>;
+
+    /// Force and torque on each solid during the last step.
+    fn loads(&self) -> Vec<Load>;
+
+    /// Writes all that it needs to go on from here, bit for bit.
+    fn save(&self, out: &mut dyn Write) -> io::Result<()>;
+
+    /// Takes the state that [`Engine::save`] wrote for the same scene.
+    fn load(&mut self, from: &mut dyn Read) -> io::Result<()>;
+}

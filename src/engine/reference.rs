@@ -1,0 +1,136 @@
+//! The oracle as an engine.
+
+use std::io::{self, Read, Write};
+
+use psmrt_reference::forcing::forced_velocity;
+use psmrt_reference::guard::{Evidence, Stopped};
+use psmrt_reference::lattice::{Vec3, density, momentum};
+use psmrt_reference::setup::SetupError;
+use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solver::{Memory, Solver};
+
+use super::bytes::{put_real, put_vector, put_whole, real, vector, whole};
+use super::{BoxMeans, CellState, Engine};
+use crate::scene::Scene;
+
+/// Plain double precision on the CPU.
+#[derive(Clone, Debug)]
+pub struct ReferenceEngine {
+    solver: Solver,
+}
+
+impl ReferenceEngine {
+    /// The scene at its start. Errors if the oracle refuses the set-up.
+    pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+        let velocity = scene.initial_velocity;
+        let solver = Solver::starting_from(scene.setup.clone(), |_| (1.0, velocity))?;
+        Ok(ReferenceEngine { solver })
+    }
+
+    fn body_force(&self) -> Vec3 {
+        self.solver.setup().body_force.unwrap_or_else(Vec3::zeros)
+    }
+}
+
+impl Engine for ReferenceEngine {
+    fn name(&self) -> &'static str {
+        "reference"
+    }
+
+    fn steps(&self) -> u64 {
+        self.solver.steps()
+    }
+
+    fn step(&mut self, count: u64) -> Result<(), Stopped> {
+        self.solver.run(count)
+    }
+
+    fn box_means(&self) -> BoxMeans {
+        let (f, g) = (self.solver.populations(), self.body_force());
+        let n = f.len() as f64;
+        let speed = |f| forced_velocity(density(f), &momentum(f), &g).norm();
+        BoxMeans {
+            density: f.iter().map(density).sum::<f64>() / n,
+            mass_flux: self.solver.mass_flux_field().iter().sum::<Vec3>() / n,
+            max_speed: f.iter().map(speed).fold(0.0, f64::max),
+        }
+    }
+
+    fn cells(&self, numbers: &[usize]) -> Vec<CellState> {
+        let g = self.body_force();
+        let coverage = self.solver.coverage();
+        let state = |&cell: &usize| {
+            let f = &self.solver.populations()[cell];
+            let rho = density(f);
+            CellState {
+                density: rho,
+                velocity: forced_velocity(rho, &momentum(f), &g),
+                solid_fraction: coverage.map_or(0.0, |coverage| coverage.solid_fraction(cell)),
+            }
+        };
+        numbers.iter().map(state).collect()
+    }
+
+    fn solids(&self) -> Vec<Solid> {
+        self.solver.setup().solid_phase.as_ref().map_or_else(Vec::new, |phase| phase.solids.clone())
+    }
+
+    fn loads(&self) -> Vec<Load> {
+        self.solver.loads().to_vec()
+    }
+
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Memory { steps, loads, evidence } = self.solver.memory();
+        put_whole(out, steps)?;
+        put_vector(out, &self.body_force())?;
+        put_whole(out, loads.len() as u64)?;
+        for (solid, load) in self.solids().iter().zip(&loads) {
+            let vectors = [&solid.centre, &solid.velocity, &solid.spin, &load.force, &load.torque];
+            vectors.into_iter().try_for_each(|vector| put_vector(out, vector))?;
+        }
+        // NaN stands for "no look yet": the guard never keeps one.
+        put_real(out, evidence.first_mean_density.unwrap_or(f64::NAN))?;
+        put_real(out, evidence.last_mean_density)?;
+        put_real(out, evidence.last_max_speed)?;
+        put_whole(out, self.solver.populations().len() as u64)?;
+        self.solver.populations().iter().flatten().try_for_each(|&f| put_real(out, f))
+    }
+
+    fn load(&mut self, from: &mut dyn Read) -> io::Result<()> {
+        let mut setup = self.solver.setup().clone();
+        let steps = whole(from)?;
+        let body_force = vector(from)?;
+        if let Some(force) = &mut setup.body_force {
+            *force = body_force;
+        }
+        let mut loads = Vec::new();
+        let solids = setup.solid_phase.as_mut().map_or(&mut [][..], |phase| &mut phase.solids[..]);
+        expect(whole(from)?, solids.len(), "grains")?;
+        for solid in solids {
+            (solid.centre, solid.velocity, solid.spin) =
+                (vector(from)?, vector(from)?, vector(from)?);
+            loads.push(Load { force: vector(from)?, torque: vector(from)? });
+        }
+        let evidence = Evidence {
+            first_mean_density: Some(real(from)?).filter(|density| !density.is_nan()),
+            last_mean_density: real(from)?,
+            last_max_speed: real(from)?,
+        };
+        expect(whole(from)?, setup.domain.cell_count(), "cells")?;
+        let mut f = self.solver.populations().to_vec();
+        for population in f.iter_mut().flatten() {
+            *population = real(from)?;
+        }
+        let memory = Memory { steps, loads, evidence };
+        self.solver = Solver::going_on_from(setup, f, memory).map_err(io::Error::other)?;
+        Ok(())
+    }
+}
+
+/// Errors unless the file has as many as the scene.
+fn expect(found: u64, wanted: usize, what: &str) -> io::Result<()> {
+    if found == wanted as u64 {
+        return Ok(());
+    }
+    Err(io::Error::other(format!("it has {found} {what}, the scene {wanted}")))
+}

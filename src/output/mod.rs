@@ -1,0 +1,11 @@
+//! What a run leaves behind: one file a format.
+
+pub mod atomic;
+pub mod csv;
+pub mod folder;
+pub mod npy;
+pub mod plot;
+pub mod records;
+pub mod slice;
+pub mod snapshots;
+pub mod vtk;

@@ -1,0 +1,196 @@
+//! Records: what an engine is asked for, turned into rows in SI units or files of their own.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use psmrt_reference::solids::Shape;
+
+use super::csv::{Column, Table, Value};
+use super::snapshots;
+use crate::engine::{CellState, Engine};
+use crate::scene::{Record, Scene, What};
+
+/// The columns of a record of kind `box`, after time and step.
+pub const BOX_COLUMNS: [Column; 5] = [
+    Column::new("density", "kg/m3"),
+    Column::new("superficial_velocity_x", "m/s"),
+    Column::new("superficial_velocity_y", "m/s"),
+    Column::new("superficial_velocity_z", "m/s"),
+    Column::new("max_speed", "m/s"),
+];
+
+/// The columns of a record of kind `profile`, after time and step.
+const PROFILE_COLUMNS: [Column; 5] = [
+    Column::new("position", "m"),
+    Column::new("pressure", "Pa"),
+    Column::new("velocity_x", "m/s"),
+    Column::new("velocity_y", "m/s"),
+    Column::new("velocity_z", "m/s"),
+];
+
+/// The columns of a record of kind `loads`, after time and step.
+const LOAD_COLUMNS: [Column; 17] = [
+    Column::new("grain", ""),
+    Column::new("x", "m"),
+    Column::new("y", "m"),
+    Column::new("z", "m"),
+    Column::new("diameter", "m"),
+    Column::new("velocity_x", "m/s"),
+    Column::new("velocity_y", "m/s"),
+    Column::new("velocity_z", "m/s"),
+    Column::new("spin_x", "rad/s"),
+    Column::new("spin_y", "rad/s"),
+    Column::new("spin_z", "rad/s"),
+    Column::new("force_x", "N"),
+    Column::new("force_y", "N"),
+    Column::new("force_z", "N"),
+    Column::new("torque_x", "N m"),
+    Column::new("torque_y", "N m"),
+    Column::new("torque_z", "N m"),
+];
+
+/// The records that are tables: kind and columns, after time and step.
+pub fn tables() -> [(&'static str, &'static [Column]); 3] {
+    [("box", &BOX_COLUMNS), ("profile", &PROFILE_COLUMNS), ("loads", &LOAD_COLUMNS)]
+}
+
+/// Takes one record.
+#[derive(Debug)]
+pub struct Recorder {
+    /// What it is.
+    pub record: Record,
+    folder: PathBuf,
+    /// The file of a record that is a table.
+    table: Option<Table>,
+}
+
+impl Recorder {
+    /// Begins a record in `folder`.
+    pub fn create(record: &Record, folder: &Path) -> io::Result<Self> {
+        let table = columns(record)
+            .map(|columns| Table::create(&table_path(record, folder), &columns))
+            .transpose()?;
+        Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
+    }
+
+    /// Goes on with a record whose table had `length` bytes; what came after is dropped.
+    pub fn reopen(record: &Record, folder: &Path, length: u64) -> io::Result<Self> {
+        let table = columns(record)
+            .map(|_| Table::reopen(&table_path(record, folder), length))
+            .transpose()?;
+        Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
+    }
+
+    /// Takes it for now.
+    pub fn take(&mut self, scene: &Scene, engine: &dyn Engine) -> io::Result<()> {
+        let Some(table) = &mut self.table else {
+            return snapshots::take(&self.record, scene, engine, &self.folder);
+        };
+        let steps = engine.steps();
+        let now = [Value::Real(steps as f64 * scene.units.si_dt), Value::Whole(steps)];
+        let mut add = |start: &[Value], values: &[f64]| {
+            let values: Vec<_> = values.iter().map(|&value| Value::Real(value)).collect();
+            table.add(&[&now, start, &values].concat())
+        };
+        match &self.record.what {
+            What::Box => add(&[], &box_row(scene, engine))?,
+            What::Profile { axis, through } => {
+                for row in profile_rows(scene, engine, *axis, *through) {
+                    add(&[], &row)?;
+                }
+            }
+            What::Loads => {
+                for (grain, row) in (0..).zip(load_rows(scene, engine)) {
+                    add(&[Value::Whole(grain)], &row[1..])?;
+                }
+            }
+            What::Fields { .. } | What::Slice { .. } | What::Grains => {}
+        }
+        table.flush()
+    }
+
+    /// Waits until all rows are on the disk; returns the length of the table in bytes, 0 for a
+    /// record that is none.
+    pub fn sync(&mut self) -> io::Result<u64> {
+        self.table.as_mut().map_or(Ok(0), Table::sync)
+    }
+}
+
+fn table_path(record: &Record, folder: &Path) -> PathBuf {
+    folder.join(format!("{}.csv", record.name))
+}
+
+/// The columns of a record that is a table.
+fn columns(record: &Record) -> Option<Vec<Column>> {
+    let own: &[Column] = match record.what {
+        What::Box => &BOX_COLUMNS,
+        What::Profile { .. } => &PROFILE_COLUMNS,
+        What::Loads => &LOAD_COLUMNS,
+        What::Fields { .. } | What::Slice { .. } | What::Grains => return None,
+    };
+    let first = [Column::new("time", "s"), Column::new("step", "")];
+    Some([first.as_slice(), own].concat())
+}
+
+/// The values of [`BOX_COLUMNS`].
+pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
+    let (means, units) = (engine.box_means(), &scene.units);
+    // The superficial velocity is the mass flux over the reference density, 1.
+    let superficial = means.mass_flux * units.si_velocity();
+    [
+        means.density * units.si_density,
+        superficial.x,
+        superficial.y,
+        superficial.z,
+        means.max_speed * units.si_velocity(),
+    ]
+}
+
+/// The values of the columns of a profile, cell by cell.
+pub fn profile_rows(
+    scene: &Scene,
+    engine: &dyn Engine,
+    axis: usize,
+    through: [usize; 3],
+) -> Vec<[f64; 5]> {
+    let (domain, units) = (&scene.setup.domain, &scene.units);
+    let cell = |i: usize| {
+        let mut cell = through;
+        cell[axis] = i;
+        domain.index(cell)
+    };
+    let line: Vec<usize> = (0..domain.cells()[axis]).map(cell).collect();
+    let row = |(i, state): (usize, CellState)| {
+        let velocity = state.velocity * units.si_velocity();
+        let position = (i as f64 + 0.5) * units.si_dx;
+        let pressure = units.si_gauge_pressure(state.density);
+        [position, pressure, velocity.x, velocity.y, velocity.z]
+    };
+    engine.cells(&line).into_iter().enumerate().map(row).collect()
+}
+
+/// The values of the columns of a record of loads, grain by grain.
+pub fn load_rows(scene: &Scene, engine: &dyn Engine) -> Vec<[f64; 17]> {
+    let units = &scene.units;
+    let mut rows = Vec::new();
+    for (number, (solid, load)) in engine.solids().iter().zip(engine.loads()).enumerate() {
+        let diameter = match solid.shape {
+            Shape::Sphere { radius } => 2.0 * radius,
+            Shape::Cells { .. } => 0.0,
+        };
+        let mut row = [0.0; 17];
+        row[0] = number as f64;
+        row[4] = diameter * units.si_dx;
+        for (first, vector) in [
+            (1, solid.centre * units.si_dx),
+            (5, solid.velocity * units.si_velocity()),
+            (8, solid.spin * units.si_spin()),
+            (11, load.force * units.si_force()),
+            (14, load.torque * units.si_torque()),
+        ] {
+            row[first..first + 3].copy_from_slice(vector.as_slice());
+        }
+        rows.push(row);
+    }
+    rows
+}

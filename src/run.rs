@@ -1,0 +1,212 @@
+//! The time loop: steps, records, checkpoints, and when to stop.
+
+use std::io;
+use std::path::Path;
+use std::time::Instant;
+
+use psmrt_reference::guard::Stopped;
+use thiserror::Error;
+
+use crate::checkpoint::{self, CheckpointError, Progress};
+use crate::engine::Engine;
+use crate::output::records::{Recorder, box_row};
+use crate::scene::{Interval, Rhythm, Scene, Steady};
+
+/// A run that could not go on.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The guard has stopped it.
+    #[error(transparent)]
+    Guard(#[from] Stopped),
+    /// Its results cannot be written.
+    #[error("results cannot be written: {0}; what was written before is whole")]
+    Write(#[from] io::Error),
+    /// Its state cannot be saved.
+    #[error("the checkpoint cannot be written: {0}; what was written before is whole")]
+    Checkpoint(#[from] CheckpointError),
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// It has made all the steps that the scene allows.
+    Limit,
+    /// It has become steady.
+    Steady,
+    /// The user has interrupted it; its state is saved.
+    Interrupted,
+}
+
+/// Who watches a run. Told after every batch of steps; answers whether to go on.
+pub trait Watcher {
+    /// `steps` have been made so far; `change` is the last relative change of the steady-state
+    /// criterion, if there is one.
+    fn watch(&mut self, steps: u64, change: Option<f64>) -> bool;
+}
+
+/// Steps between two calls of the watcher, at most: about so many cell updates.
+const BATCH_UPDATES: u64 = 200_000;
+
+/// Runs a scene to its end, with its results in `folder`: from the start, or from where the engine
+/// and `resumed` say.
+pub fn run(
+    scene: &Scene,
+    engine: &mut dyn Engine,
+    folder: &Path,
+    resumed: Option<&Progress>,
+    watcher: &mut dyn Watcher,
+) -> Result<End, RunError> {
+    let mut run = Run::begin(scene, folder, resumed)?;
+    if resumed.is_none() {
+        run.observe(engine)?;
+    }
+    let mut saved = Saved { step: engine.steps(), at: Instant::now() };
+    let end = loop {
+        let now = engine.steps();
+        if run.quiet.as_ref().is_some_and(Quiet::is_met) {
+            break End::Steady;
+        }
+        if now >= scene.stop.steps {
+            break End::Limit;
+        }
+        let go_on = watcher.watch(now, run.quiet.as_ref().and_then(|quiet| quiet.change));
+        if !go_on || saved.is_due(scene.checkpoint, now) {
+            run.save(engine)?;
+            saved = Saved { step: now, at: Instant::now() };
+        }
+        if !go_on {
+            break End::Interrupted;
+        }
+        engine.step(run.next_event(now) - now)?;
+        run.observe(engine)?;
+    };
+    if end != End::Interrupted {
+        run.finish(engine)?;
+    }
+    Ok(end)
+}
+
+/// When the state was saved last.
+struct Saved {
+    step: u64,
+    at: Instant,
+}
+
+impl Saved {
+    fn is_due(&self, interval: Interval, now: u64) -> bool {
+        match interval {
+            Interval::Steps(steps) => now > self.step && now.is_multiple_of(steps),
+            Interval::Time(time) => self.at.elapsed() >= time,
+        }
+    }
+}
+
+/// What a run keeps besides the engine.
+struct Run<'a> {
+    scene: &'a Scene,
+    folder: &'a Path,
+    recorders: Vec<Recorder>,
+    quiet: Option<Quiet>,
+}
+
+impl<'a> Run<'a> {
+    fn begin(scene: &'a Scene, folder: &'a Path, resumed: Option<&Progress>) -> io::Result<Self> {
+        let recorder = |(number, record)| match resumed {
+            None => Recorder::create(record, folder),
+            Some(progress) => {
+                let length = progress.table_lengths.get(number).copied().unwrap_or(0);
+                Recorder::reopen(record, folder, length)
+            }
+        };
+        let recorders =
+            scene.records.iter().enumerate().map(recorder).collect::<io::Result<Vec<_>>>()?;
+        let quiet = scene.stop.steady.clone().map(|steady| Quiet::begin(steady, resumed));
+        Ok(Run { scene, folder, recorders, quiet })
+    }
+
+    /// Takes the records that are due now.
+    fn observe(&mut self, engine: &dyn Engine) -> io::Result<()> {
+        let now = engine.steps();
+        for recorder in self.recorders.iter_mut().filter(|r| r.record.rhythm.is_due(now)) {
+            recorder.take(self.scene, engine)?;
+        }
+        if let Some(quiet) = &mut self.quiet {
+            quiet.look(self.scene, engine);
+        }
+        Ok(())
+    }
+
+    /// The step at which something is due next, or the watcher should be told.
+    fn next_event(&self, now: u64) -> u64 {
+        let after = |interval: u64| (now / interval + 1).saturating_mul(interval);
+        let records = self.scene.records.iter().filter_map(|record| match record.rhythm {
+            Rhythm::Every(interval) => Some(after(interval)),
+            Rhythm::AtEnd => None,
+        });
+        let checkpoint = match self.scene.checkpoint {
+            Interval::Steps(interval) => after(interval),
+            Interval::Time(_) => u64::MAX,
+        };
+        let batch = (BATCH_UPDATES / self.scene.setup.domain.cell_count() as u64).max(1);
+        records.fold(checkpoint.min(now + batch).min(self.scene.stop.steps), u64::min)
+    }
+
+    fn save(&mut self, engine: &dyn Engine) -> Result<(), RunError> {
+        let lengths = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
+        let progress = Progress {
+            table_lengths: lengths,
+            quiet_rows: self.quiet.as_ref().map_or(0, |quiet| quiet.rows),
+            last_value_bits: self.quiet.as_ref().and_then(|q| Some(q.last?.to_bits())),
+        };
+        checkpoint::save(self.folder, self.scene, engine, progress)?;
+        Ok(())
+    }
+
+    /// Takes the records that are due at the end.
+    fn finish(&mut self, engine: &dyn Engine) -> io::Result<()> {
+        for recorder in &mut self.recorders {
+            if recorder.record.rhythm == Rhythm::AtEnd {
+                recorder.take(self.scene, engine)?;
+            }
+            recorder.sync()?;
+        }
+        Ok(())
+    }
+}
+
+/// Rows in a row that must be quiet.
+const QUIET_ROWS: u32 = 3;
+
+/// Watches one column of one record.
+struct Quiet {
+    steady: Steady,
+    last: Option<f64>,
+    rows: u32,
+    change: Option<f64>,
+}
+
+impl Quiet {
+    fn begin(steady: Steady, resumed: Option<&Progress>) -> Self {
+        let last = resumed.and_then(|progress| progress.last_value_bits).map(f64::from_bits);
+        let rows = resumed.map_or(0, |progress| progress.quiet_rows);
+        Quiet { steady, last, rows, change: None }
+    }
+
+    /// Looks at the column if its record is due.
+    fn look(&mut self, scene: &Scene, engine: &dyn Engine) {
+        if !scene.records[self.steady.record].rhythm.is_due(engine.steps()) {
+            return;
+        }
+        let value = box_row(scene, engine)[self.steady.column];
+        if let Some(last) = self.last {
+            let change = (value - last).abs() / value.abs();
+            self.rows = if change <= self.steady.tolerance { self.rows + 1 } else { 0 };
+            self.change = Some(change);
+        }
+        self.last = Some(value);
+    }
+
+    fn is_met(&self) -> bool {
+        self.rows >= QUIET_ROWS
+    }
+}

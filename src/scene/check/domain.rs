@@ -1,0 +1,90 @@
+//! The box: how many cells it has.
+
+use super::Trouble;
+use super::numbers::positive;
+use crate::scene::format::DomainSection;
+
+/// How far a length may be from a whole number of cells, in cells.
+const WHOLE: f64 = 1e-6;
+
+/// Cells along x, y, z.
+pub(super) fn cells(section: &DomainSection) -> Result<[usize; 3], Trouble> {
+    positive("domain.dx", section.dx, "m, the edge of a cell")?;
+    let cells = match (&section.size, &section.cells) {
+        (Some(size), None) => whole_cells(*size, section.dx)?,
+        (None, Some(cells)) => given_cells(*cells)?,
+        (Some(_), Some(_)) => {
+            let problem = "the box has both `size` and `cells`";
+            return Err(Trouble::new("domain.cells", problem, "give one of them, with `dx`"));
+        }
+        (None, None) => {
+            let problem = "the box has neither `size` (m) nor `cells`";
+            return Err(Trouble::new("domain", problem, "add `size = [x, y, z]` in m"));
+        }
+    };
+    check_memory(cells, if section.size.is_some() { "domain.size" } else { "domain.cells" })?;
+    Ok(cells)
+}
+
+fn whole_cells(si_size: [f64; 3], si_dx: f64) -> Result<[usize; 3], Trouble> {
+    let mut cells = [0; 3];
+    for axis in 0..3 {
+        positive("domain.size", si_size[axis], "m, each of the three lengths")?;
+        let length = si_size[axis] / si_dx;
+        let whole = length.round();
+        if whole < 1.0 || (length - whole).abs() > WHOLE * whole.max(1.0) {
+            let problem = format!(
+                "along {} it is {length:.4} cells of {si_dx} m; it must be a whole number",
+                ["x", "y", "z"][axis]
+            );
+            let next = whole.max(1.0);
+            let remedy = format!("take {:e} m there ({next} cells), or another dx", next * si_dx);
+            return Err(Trouble::new("domain.size", problem, remedy));
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let whole = whole as usize;
+        cells[axis] = whole;
+    }
+    Ok(cells)
+}
+
+fn given_cells(given: [i64; 3]) -> Result<[usize; 3], Trouble> {
+    let mut cells = [0; 3];
+    for axis in 0..3 {
+        cells[axis] = usize::try_from(given[axis]).ok().filter(|&n| n > 0).ok_or_else(|| {
+            let problem = "each of the three must be a whole number of at least 1";
+            Trouble::new("domain.cells", problem, "give at least 1 cell along each axis")
+        })?;
+    }
+    Ok(cells)
+}
+
+/// Bytes that the oracle needs for a cell: two sets of populations and a slot for coverage.
+pub const BYTES_PER_CELL: u64 = 2 * 19 * 8 + 4;
+
+/// Errors if the box cannot be numbered or cannot fit into this machine's memory.
+fn check_memory(cells: [usize; 3], key: &str) -> Result<(), Trouble> {
+    let remedy = "use a larger `dx` or a smaller box; mirror planes (`free_slip`) halve it";
+    let count = cells.iter().try_fold(1_usize, |product, &n| product.checked_mul(n));
+    let Some(count) = count.filter(|&count| count < u32::MAX as usize) else {
+        let problem =
+            format!("{cells:?} cells are too many to be numbered; 4294967294 is the limit");
+        return Err(Trouble::new(key, problem, remedy));
+    };
+    let need = count as u64 * BYTES_PER_CELL;
+    match crate::machine::memory_bytes() {
+        Some(memory) if need > memory => {
+            let problem = format!(
+                "{count} cells need {:.1} GiB; this machine has {:.1} GiB",
+                gib(need),
+                gib(memory)
+            );
+            Err(Trouble::new(key, problem, remedy))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn gib(bytes: u64) -> f64 {
+    bytes as f64 / (1_u64 << 30) as f64
+}

@@ -1,0 +1,127 @@
+//! The six faces, and the combinations that make no sense.
+
+use psmrt_reference::domain::{DomainError, FACE_NAMES, Face, Faces};
+use psmrt_reference::lattice::Vec3;
+
+use super::numbers::{absent, finite, needed};
+use super::{Trouble, velocity};
+use crate::scene::format::{FaceKind, FaceSection, FacesSection};
+use crate::scene::units::Units;
+
+/// Keys of the faces, `KEYS[axis][side]`.
+const KEYS: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
+
+/// What happens at the six faces.
+pub(super) fn faces(section: &FacesSection, units: &Units) -> Result<Faces, Trouble> {
+    let given = [
+        [&section.x_low, &section.x_high],
+        [&section.y_low, &section.y_high],
+        [&section.z_low, &section.z_high],
+    ];
+    let mut built = [[Face::Periodic; 2]; 3];
+    for axis in 0..3 {
+        for side in 0..2 {
+            if let Some(section) = given[axis][side] {
+                built[axis][side] = face(KEYS[axis][side], section, units)?;
+            }
+        }
+    }
+    let [x, y, z] = built;
+    Ok(Faces { x, y, z })
+}
+
+fn face(name: &str, section: &FaceSection, units: &Units) -> Result<Face, Trouble> {
+    let key = |last: &str| format!("faces.{name}.{last}");
+    if !matches!(section.kind, FaceKind::Wall | FaceKind::VelocityInlet) {
+        let belongs = "a `wall` or a `velocity_inlet`";
+        absent(&key("velocity"), section.velocity.as_ref(), belongs)?;
+    }
+    if section.kind != FaceKind::Pressure {
+        absent(&key("pressure"), section.pressure.as_ref(), "a face of kind `pressure`")?;
+    }
+    Ok(match section.kind {
+        FaceKind::Periodic => Face::Periodic,
+        FaceKind::FreeSlip => Face::FreeSlip,
+        FaceKind::FreeOutflow => Face::FreeOutflow,
+        FaceKind::Wall => Face::Wall {
+            velocity: match section.velocity {
+                Some(si_velocity) => velocity(&key("velocity"), si_velocity, units)?,
+                None => Vec3::zeros(),
+            },
+        },
+        FaceKind::VelocityInlet => {
+            let remedy = "add `velocity = [x, y, z]` in m/s";
+            let si_velocity =
+                needed(&key("velocity"), section.velocity, "an inlet needs it", remedy)?;
+            Face::VelocityInlet { velocity: velocity(&key("velocity"), si_velocity, units)? }
+        }
+        FaceKind::Pressure => {
+            let remedy = "add `pressure` in Pa above the pressure of the fluid at rest, often 0";
+            let si_pressure =
+                needed(&key("pressure"), section.pressure, "a pressure face needs it", remedy)?;
+            Face::Pressure { density: density(&key("pressure"), si_pressure, units)? }
+        }
+    })
+}
+
+/// How far the density at a face may be from 1: beyond, the flow is not nearly incompressible.
+const MAX_DENSITY_CHANGE: f64 = 0.1;
+
+fn density(key: &str, si_pressure: f64, units: &Units) -> Result<f64, Trouble> {
+    finite(key, &[si_pressure], "Pa")?;
+    let density = units.density_at(si_pressure);
+    if (density - 1.0).abs() <= MAX_DENSITY_CHANGE {
+        return Ok(density);
+    }
+    let limit = units.si_gauge_pressure(1.0 + MAX_DENSITY_CHANGE);
+    let problem = format!(
+        "it changes the density by {:.3} of itself; -{limit:.3e} to {limit:.3e} Pa are allowed",
+        density - 1.0
+    );
+    let remedy = "use a smaller pressure difference or a shorter time step";
+    Err(Trouble::new(key, problem, remedy))
+}
+
+/// The key to blame for a combination that makes no sense.
+pub(super) fn trouble(error: &DomainError) -> Trouble {
+    let key_of = |wanted: &str| {
+        let (names, keys) = (FACE_NAMES.as_flattened(), KEYS.as_flattened());
+        let found = names.iter().zip(keys).find(|(name, _)| **name == wanted);
+        found.map_or_else(|| "faces".to_owned(), |(_, key)| format!("faces.{key}"))
+    };
+    match *error {
+        DomainError::UnpairedPeriodic { face, opposite } => Trouble::new(
+            key_of(opposite),
+            format!(
+                "the face opposite, {}, is periodic (as are all that are absent)",
+                key_of(face)
+            ),
+            "make both periodic or neither",
+        ),
+        DomainError::WallThroughItself { face, normal } => Trouble::new(
+            key_of(face) + ".velocity",
+            format!(
+                "the wall moves along its own normal ({normal:.3e} cells per time step); a wall \
+                 moves in its own plane only"
+            ),
+            "set that component to 0, or use a `velocity_inlet` to push fluid through the face",
+        ),
+        DomainError::InletWithoutOutlet { face } => Trouble::new(
+            key_of(face),
+            "fluid enters here and no face lets it out",
+            "make one face `free_outflow` or `pressure`",
+        ),
+        DomainError::OutflowWithoutInlet { face } => Trouble::new(
+            key_of(face),
+            "fluid may leave here, but no face is a `velocity_inlet` or holds a `pressure`: nothing \
+             determines the flow",
+            "add an inlet, or make this face `pressure`",
+        ),
+        DomainError::BadValue { face, key, .. } => {
+            Trouble::new(format!("{}.{key}", key_of(face)), error.to_string(), "change it")
+        }
+        DomainError::Empty { .. } | DomainError::TooLarge { .. } => {
+            Trouble::new("domain", error.to_string(), "change the number of cells")
+        }
+    }
+}

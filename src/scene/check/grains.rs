@@ -1,0 +1,196 @@
+//! Grains: from one sphere, a CSV file or a regular array to a list of solids.
+
+use std::path::Path;
+
+use psmrt_reference::domain::Domain;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::{Shape, Solid};
+
+use super::numbers::{absent, finite, needed, positive};
+use super::{MAX_SPEED, Trouble, arrays, grain_list, neighbours};
+use crate::scene::format_grains::{GrainsKind, GrainsSection, Motion};
+use crate::scene::units::Units;
+
+/// A grain with fewer cells across is not seen by the fluid as a sphere at all.
+pub const MIN_CELLS_PER_DIAMETER: f64 = 2.0;
+
+/// A sphere, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ball {
+    pub si_centre: [f64; 3],
+    pub si_diameter: f64,
+}
+
+/// The contents of a file that a scene names: a run keeps a copy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attachment {
+    /// Number of the `[[grains]]` section that names it.
+    pub section: usize,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+}
+
+impl Attachment {
+    /// Name of the copy in the folder of a run.
+    pub fn file_name(&self) -> String {
+        format!("grains_{}.csv", self.section)
+    }
+}
+
+/// All grains of a scene in lattice units, and the files they come from.
+pub(super) fn solids(
+    sections: &[GrainsSection],
+    folder: &Path,
+    domain: &Domain,
+    units: &Units,
+) -> Result<(Vec<Solid>, Vec<Attachment>), Trouble> {
+    let (mut solids, mut attachments, mut owners) = (Vec::new(), Vec::new(), Vec::new());
+    for (number, section) in sections.iter().enumerate() {
+        let at = |key: &str| format!("grains[{number}].{key}");
+        foreign_keys(section, &at)?;
+        let (velocity, spin) = motion(section, &at, units)?;
+        for ball in balls(section, number, &at, folder, domain, units, &mut attachments)? {
+            let centre = Units::to_lattice(ball.si_centre, units.si_dx);
+            let radius = 0.5 * ball.si_diameter / units.si_dx;
+            let place = place_key(section, &at);
+            check_size(&size_key(section, &at), radius, units)?;
+            check_speed(&at("spin"), &velocity, &spin, radius)?;
+            neighbours::inside(&place, domain, &centre, radius, units)?;
+            solids.push(Solid { shape: Shape::Sphere { radius }, centre, velocity, spin });
+            owners.push(place);
+        }
+    }
+    neighbours::apart(domain, &solids, &owners, units)?;
+    Ok((solids, attachments))
+}
+
+/// The key to blame for where a grain is.
+fn place_key(section: &GrainsSection, at: &impl Fn(&str) -> String) -> String {
+    match section.kind {
+        GrainsKind::Sphere => at("centre"),
+        GrainsKind::Csv => at("file"),
+        GrainsKind::Array if section.diameter.is_some() => at("diameter"),
+        GrainsKind::Array => at("solid_fraction"),
+    }
+}
+
+/// The key to blame for how large a grain is.
+fn size_key(section: &GrainsSection, at: &impl Fn(&str) -> String) -> String {
+    if section.kind == GrainsKind::Sphere { at("diameter") } else { place_key(section, at) }
+}
+
+/// Errors at a key that belongs to another kind.
+fn foreign_keys(section: &GrainsSection, at: &impl Fn(&str) -> String) -> Result<(), Trouble> {
+    let kind = section.kind;
+    if kind != GrainsKind::Sphere {
+        absent(&at("centre"), section.centre.as_ref(), "grains of kind `sphere`")?;
+    }
+    if kind == GrainsKind::Csv {
+        let belongs = "grains of kind `sphere` and `array`; the file has its own";
+        absent(&at("diameter"), section.diameter.as_ref(), belongs)?;
+    } else {
+        absent(&at("file"), section.file.as_ref(), "grains of kind `csv`")?;
+    }
+    if kind != GrainsKind::Array {
+        let belongs = "grains of kind `array`";
+        absent(&at("lattice"), section.lattice.as_ref(), belongs)?;
+        absent(&at("counts"), section.counts.as_ref(), belongs)?;
+        absent(&at("solid_fraction"), section.solid_fraction.as_ref(), belongs)?;
+    }
+    Ok(())
+}
+
+fn balls(
+    section: &GrainsSection,
+    number: usize,
+    at: &impl Fn(&str) -> String,
+    folder: &Path,
+    domain: &Domain,
+    units: &Units,
+    attachments: &mut Vec<Attachment>,
+) -> Result<Vec<Ball>, Trouble> {
+    match section.kind {
+        GrainsKind::Sphere => {
+            let remedy = "add `centre = [x, y, z]` in m";
+            let si_centre = needed(&at("centre"), section.centre, "a sphere needs it", remedy)?;
+            finite(&at("centre"), &si_centre, "m")?;
+            let remedy = "add `diameter`, in m";
+            let si_diameter =
+                needed(&at("diameter"), section.diameter, "a sphere needs it", remedy)?;
+            positive(&at("diameter"), si_diameter, "m")?;
+            Ok(vec![Ball { si_centre, si_diameter }])
+        }
+        GrainsKind::Csv => {
+            let remedy = "add `file = \"grains.csv\"`, relative to the scene file";
+            let because = "grains of kind `csv` need it";
+            let file = needed(&at("file"), section.file.as_deref(), because, remedy)?;
+            let (bytes, balls) = grain_list::read(&at("file"), &folder.join(file))?;
+            attachments.push(Attachment { section: number, bytes });
+            Ok(balls)
+        }
+        GrainsKind::Array => arrays::balls(section, at, domain, units),
+    }
+}
+
+/// Velocity and spin in lattice units.
+fn motion(
+    section: &GrainsSection,
+    at: &impl Fn(&str) -> String,
+    units: &Units,
+) -> Result<(Vec3, Vec3), Trouble> {
+    match section.motion {
+        Motion::Free => Err(Trouble::new(
+            at("motion"),
+            "grains that move freely are not built yet",
+            "use \"fixed\" or \"prescribed\"",
+        )),
+        Motion::Fixed => {
+            let belongs = "`motion = \"prescribed\"`";
+            absent(&at("velocity"), section.velocity.as_ref(), belongs)?;
+            absent(&at("spin"), section.spin.as_ref(), belongs)?;
+            Ok((Vec3::zeros(), Vec3::zeros()))
+        }
+        Motion::Prescribed => {
+            if section.velocity.is_none() && section.spin.is_none() {
+                let problem = "it needs `velocity` (m/s) or `spin` (rad/s), and has neither";
+                return Err(Trouble::new(
+                    at("motion"),
+                    problem,
+                    "add one of them, or use \"fixed\"",
+                ));
+            }
+            let velocity = match section.velocity {
+                Some(si_velocity) => super::velocity(&at("velocity"), si_velocity, units)?,
+                None => Vec3::zeros(),
+            };
+            let spin = section.spin.unwrap_or([0.0; 3]);
+            finite(&at("spin"), &spin, "rad/s")?;
+            Ok((velocity, Units::to_lattice(spin, units.si_spin())))
+        }
+    }
+}
+
+fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Trouble> {
+    if 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
+        return Ok(());
+    }
+    let problem = format!(
+        "a grain of {:.4e} m is {:.2} cells across; at least {MIN_CELLS_PER_DIAMETER} are needed, \
+         8 or more are good",
+        2.0 * radius * units.si_dx,
+        2.0 * radius
+    );
+    let remedy = format!("use `domain.dx` = {:.3e} m or less", radius * units.si_dx / 4.0);
+    Err(Trouble::new(key, problem, remedy))
+}
+
+fn check_speed(key: &str, velocity: &Vec3, spin: &Vec3, radius: f64) -> Result<(), Trouble> {
+    let speed = velocity.norm() + spin.norm() * radius;
+    if speed <= MAX_SPEED {
+        return Ok(());
+    }
+    let problem = format!(
+        "the surface moves at {speed:.3} cells per time step; at most {MAX_SPEED} is allowed"
+    );
+    Err(Trouble::new(key, problem, "use a slower spin or a shorter time step"))
+}

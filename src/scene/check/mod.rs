@@ -1,0 +1,123 @@
+//! Values that make sense: each section of a scene becomes its checked form in lattice units, or
+//! one [`Trouble`] that names the key, what is allowed, and the remedy.
+
+mod arrays;
+pub mod checkpoint;
+mod collision;
+pub mod domain;
+mod faces;
+mod grain_list;
+pub mod grains;
+mod neighbours;
+mod numbers;
+pub mod records;
+mod solid;
+pub mod stop;
+mod time;
+
+use std::path::Path;
+
+use psmrt_reference::domain::Domain;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::setup::{Setup, SetupError};
+
+use super::format::{BodyForceSection, SceneFile};
+use super::format_run::ExactName;
+use super::units::Units;
+use super::{Scene, Trouble};
+use crate::exact::PlanePoiseuille;
+use numbers::{finite, positive};
+
+/// Largest speed in lattice units that a scene may set: a Mach number of 0.35, beyond which the
+/// error of compressibility is above a tenth.
+pub const MAX_SPEED: f64 = 0.2;
+
+/// Checks a scene; files that it names are looked for in `folder`.
+pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
+    let cells = domain::cells(&file.domain)?;
+    positive("fluid.density", file.fluid.density, "kg/m3, for example 1000")?;
+    positive("fluid.kinematic_viscosity", file.fluid.kinematic_viscosity, "m2/s, water has 1e-6")?;
+    let (units, tau) = time::units_and_tau(&file.time, &file.fluid, file.domain.dx)?;
+    let collision = collision::collision(&file.collision, tau)?;
+    let faces = faces::faces(&file.faces, &units)?;
+    let domain = Domain::new(cells, faces).map_err(|error| faces::trouble(&error))?;
+    let mut setup = Setup::fluid(domain, collision);
+    setup.body_force =
+        file.body_force.as_ref().map(|section| body_force(section, &units)).transpose()?;
+    let initial_velocity = match &file.initial {
+        Some(initial) => velocity("initial.velocity", initial.velocity, &units)?,
+        None => Vec3::zeros(),
+    };
+    let (solids, attachments) = grains::solids(&file.grains, folder, &setup.domain, &units)?;
+    setup.solid_phase = solid::solid_phase(file.solid.as_ref(), solids)?;
+    setup.check().map_err(|error| setup_trouble(&error))?;
+    let records = records::records(&file.records, &setup, &units)?;
+    let stop = stop::stop(&file.stop, &records, &units)?;
+    let exact = match file.compare.as_ref().map(|section| section.exact) {
+        Some(ExactName::PlanePoiseuille) => Some(
+            PlanePoiseuille::of(&setup, &units)
+                .map_err(|(problem, remedy)| Trouble::new("compare.exact", problem, remedy))?,
+        ),
+        None => None,
+    };
+    Ok(Scene {
+        title: file.title.clone().unwrap_or_default(),
+        text: String::new(),
+        attachments,
+        units,
+        si_reference_velocity: file.time.reference_velocity,
+        checkpoint: checkpoint::interval(file.checkpoint.as_ref())?,
+        setup,
+        initial_velocity,
+        records,
+        stop,
+        exact,
+    })
+}
+
+/// A velocity in lattice units, if it is slow enough.
+fn velocity(key: &str, si_velocity: [f64; 3], units: &Units) -> Result<Vec3, Trouble> {
+    finite(key, &si_velocity, "m/s")?;
+    let velocity = Units::to_lattice(si_velocity, units.si_velocity());
+    let speed = velocity.norm();
+    if speed <= MAX_SPEED {
+        return Ok(velocity);
+    }
+    let problem = format!(
+        "its speed is {speed:.3} cells per time step (Mach {:.2}); at most {MAX_SPEED} is allowed",
+        speed * 3.0_f64.sqrt()
+    );
+    let remedy = format!(
+        "shorten the time step to {:.3e} s or less (`time.dt`, or a smaller `time.tau`), or use a \
+         smaller `domain.dx` with the same tau",
+        units.si_dt * 0.5 * MAX_SPEED / speed
+    );
+    Err(Trouble::new(key, problem, remedy))
+}
+
+/// The body force per volume in lattice units.
+fn body_force(section: &BodyForceSection, units: &Units) -> Result<Vec3, Trouble> {
+    let key = "body_force.acceleration";
+    finite(key, &section.acceleration, "m/s2")?;
+    let force = Units::to_lattice(section.acceleration, units.si_acceleration());
+    if force.norm() <= MAX_SPEED {
+        return Ok(force);
+    }
+    let problem = format!(
+        "it gains {:.3e} cells per time step in each step; at most {MAX_SPEED} is allowed",
+        force.norm()
+    );
+    Err(Trouble::new(key, problem, "use a weaker force or a shorter time step"))
+}
+
+/// What the sections' own checks have let through: said in the reference's words.
+fn setup_trouble(error: &SetupError) -> Trouble {
+    let key = match error {
+        SetupError::Domain(_) => "domain",
+        SetupError::Rates(_) => "collision",
+        SetupError::Solid(_) => "grains",
+        SetupError::BodyForce { .. } => "body_force",
+        SetupError::NoSamples => "solid",
+    };
+    Trouble::new(key, error.to_string(), "change the value")
+}

@@ -1,0 +1,66 @@
+//! Checks of single numbers.
+
+use super::Trouble;
+
+/// Errors unless every component is a finite number. `unit` says what it is measured in.
+pub(super) fn finite(key: &str, values: &[f64], unit: &str) -> Result<(), Trouble> {
+    if values.iter().all(|value| value.is_finite()) {
+        return Ok(());
+    }
+    Err(Trouble::new(key, "it must be finite", format!("give a finite number ({unit})")))
+}
+
+/// Errors unless `value` is positive and finite. `hint` says what it is measured in.
+pub(super) fn positive(key: &str, value: f64, hint: &str) -> Result<(), Trouble> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(());
+    }
+    let remedy = format!("give a number above 0 ({hint})");
+    Err(Trouble::new(key, "it must be positive and finite", remedy))
+}
+
+/// A whole number above 0.
+pub(super) fn count(key: &str, value: i64) -> Result<u64, Trouble> {
+    u64::try_from(value).ok().filter(|&count| count > 0).ok_or_else(|| {
+        Trouble::new(key, "it must be a whole number of at least 1", "give 1 or more")
+    })
+}
+
+/// Errors if a key is given where it means nothing.
+pub(super) fn absent<T>(key: &str, value: Option<&T>, belongs: &str) -> Result<(), Trouble> {
+    match value {
+        None => Ok(()),
+        Some(_) => Err(Trouble::new(
+            key,
+            format!("it belongs to {belongs} and means nothing here"),
+            "remove it",
+        )),
+    }
+}
+
+/// The value of a key that is needed here.
+pub(super) fn needed<T>(
+    key: &str,
+    value: Option<T>,
+    because: &str,
+    remedy: &str,
+) -> Result<T, Trouble> {
+    value.ok_or_else(|| Trouble::new(key, format!("it is missing: {because}"), remedy))
+}
+
+/// A duration in whole steps, at least 1.
+pub(super) fn steps(key: &str, si_time: f64, si_dt: f64) -> Result<u64, Trouble> {
+    positive(key, si_time, "s")?;
+    let steps = (si_time / si_dt).round();
+    if steps < 1.0 {
+        let problem = format!("it is shorter than half a time step ({si_dt:.3e} s)");
+        return Err(Trouble::new(key, problem, "give at least one time step"));
+    }
+    if steps > 1e15 {
+        let problem = format!("it is {steps:.1e} time steps of {si_dt:.3e} s; 1e15 is the limit");
+        return Err(Trouble::new(key, problem, "give a shorter time"));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 1e15")]
+    let steps = steps as u64;
+    Ok(steps)
+}

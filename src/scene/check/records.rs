@@ -1,0 +1,206 @@
+//! What to record and how often.
+
+use std::collections::HashSet;
+use std::fmt;
+
+use psmrt_reference::domain::Domain;
+use psmrt_reference::setup::Setup;
+
+use super::Trouble;
+use super::numbers::{absent, count, finite, needed, steps};
+use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
+use crate::scene::units::Units;
+
+/// A record of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// Its name, and that of its file.
+    pub name: String,
+    /// What it holds.
+    pub what: What,
+    /// How often it is taken.
+    pub rhythm: Rhythm,
+}
+
+/// What a record holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum What {
+    /// Means over the box.
+    Box,
+    /// A line of cells along `axis` through the cell `through`.
+    Profile {
+        /// 0, 1 or 2.
+        axis: usize,
+        /// A cell on the line.
+        through: [usize; 3],
+    },
+    /// Force and torque on each grain.
+    Loads,
+    /// Pressure, velocity and solid fraction of all cells, a set of files each time.
+    Fields {
+        /// File formats, at least one.
+        formats: Vec<FieldFormat>,
+    },
+    /// A picture of the cells in a plane, each time.
+    Slice {
+        /// Normal of the plane: 0, 1 or 2.
+        normal: usize,
+        /// Number of the plane along the normal.
+        plane: usize,
+        /// What the colours show.
+        quantity: Quantity,
+    },
+    /// All grains, a file each time.
+    Grains,
+}
+
+/// How often a record is taken.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rhythm {
+    /// At the start, and each time that this many steps have been made.
+    Every(u64),
+    /// Once, at the end.
+    AtEnd,
+}
+
+impl Rhythm {
+    /// Whether a record is due after `step` steps, leaving the end aside.
+    pub fn is_due(self, step: u64) -> bool {
+        matches!(self, Rhythm::Every(interval) if step.is_multiple_of(interval))
+    }
+}
+
+impl fmt::Display for Rhythm {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Rhythm::Every(interval) => write!(out, "every {interval} steps"),
+            Rhythm::AtEnd => out.write_str("at the end"),
+        }
+    }
+}
+
+impl AxisName {
+    /// 0, 1 or 2.
+    pub fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// The records of a scene.
+pub(super) fn records(
+    sections: &[RecordSection],
+    setup: &Setup,
+    units: &Units,
+) -> Result<Vec<Record>, Trouble> {
+    let mut names = HashSet::new();
+    let mut records = Vec::new();
+    for (number, section) in sections.iter().enumerate() {
+        let at = |key: &str| format!("records[{number}].{key}");
+        check_name(&at("name"), &section.name)?;
+        if !names.insert(section.name.as_str()) {
+            let problem = "another record has this name already; each needs its own";
+            return Err(Trouble::new(at("name"), problem, "give it another name"));
+        }
+        let rhythm = match (section.every, section.every_steps) {
+            (None, None) => Rhythm::AtEnd,
+            (Some(si_time), None) => Rhythm::Every(steps(&at("every"), si_time, units.si_dt)?),
+            (None, Some(every)) => Rhythm::Every(count(&at("every_steps"), every)?),
+            (Some(_), Some(_)) => {
+                let problem = "the record has both `every` (s) and `every_steps`";
+                return Err(Trouble::new(at("every_steps"), problem, "give one of them"));
+            }
+        };
+        let what = what(section, &at, setup, units)?;
+        records.push(Record { name: section.name.clone(), what, rhythm });
+    }
+    Ok(records)
+}
+
+fn what(
+    section: &RecordSection,
+    at: &impl Fn(&str) -> String,
+    setup: &Setup,
+    units: &Units,
+) -> Result<What, Trouble> {
+    if section.kind != RecordKind::Fields {
+        absent(&at("formats"), section.formats.as_ref(), "records of kind `fields`")?;
+    }
+    if matches!(section.kind, RecordKind::Loads | RecordKind::Grains) && setup.solid_phase.is_none()
+    {
+        let problem = "the scene has no grains to record";
+        return Err(Trouble::new(at("kind"), problem, "add [[grains]], or remove this record"));
+    }
+    let needs_axis = matches!(section.kind, RecordKind::Profile | RecordKind::Slice);
+    if !needs_axis {
+        let belongs = "records of kind `profile` and `slice`";
+        absent(&at("axis"), section.axis.as_ref(), belongs)?;
+        absent(&at("point"), section.point.as_ref(), belongs)?;
+    }
+    if section.kind != RecordKind::Slice {
+        absent(&at("quantity"), section.quantity.as_ref(), "records of kind `slice`")?;
+    }
+    let axis = || {
+        let remedy = "add `axis = \"x\"`, \"y\" or \"z\"";
+        let because = "a profile or slice needs it";
+        Ok(needed(&at("axis"), section.axis, because, remedy)?.index())
+    };
+    let through = || match section.point {
+        Some(point) => cell_at(&at("point"), point, &setup.domain, units),
+        None => Ok(setup.domain.cells().map(|n| n / 2)),
+    };
+    Ok(match section.kind {
+        RecordKind::Box => What::Box,
+        RecordKind::Profile => What::Profile { axis: axis()?, through: through()? },
+        RecordKind::Slice => {
+            let normal = axis()?;
+            let quantity = section.quantity.unwrap_or_default();
+            What::Slice { normal, plane: through()?[normal], quantity }
+        }
+        RecordKind::Loads => What::Loads,
+        RecordKind::Grains => What::Grains,
+        RecordKind::Fields => {
+            let formats = section.formats.clone().unwrap_or_else(|| vec![FieldFormat::Vti]);
+            if formats.is_empty() {
+                let remedy = "give \"vti\", \"npy\" or both";
+                return Err(Trouble::new(at("formats"), "the list is empty", remedy));
+            }
+            What::Fields { formats }
+        }
+    })
+}
+
+fn check_name(key: &str, name: &str) -> Result<(), Trouble> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if !name.is_empty() && name.len() <= 60 && name.chars().all(plain) {
+        return Ok(());
+    }
+    let problem = "a name has 1 to 60 letters (a to z), digits, `-` and `_`: it becomes a file's";
+    Err(Trouble::new(key, problem, "for example \"box\" or \"profile_y\""))
+}
+
+/// The cell that contains a point.
+fn cell_at(
+    key: &str,
+    si_point: [f64; 3],
+    domain: &Domain,
+    units: &Units,
+) -> Result<[usize; 3], Trouble> {
+    finite(key, &si_point, "m")?;
+    let mut cell = [0; 3];
+    for axis in 0..3 {
+        let along = si_point[axis] / units.si_dx;
+        let n = domain.cells()[axis];
+        if !(0.0..n as f64).contains(&along) {
+            let problem = format!(
+                "it lies outside the box, which spans 0 to {:.6e} m along {}",
+                n as f64 * units.si_dx,
+                ["x", "y", "z"][axis]
+            );
+            return Err(Trouble::new(key, problem, "give a point inside the box"));
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to n")]
+        let index = along as usize;
+        cell[axis] = index;
+    }
+    Ok(cell)
+}

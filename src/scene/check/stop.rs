@@ -1,0 +1,80 @@
+//! When a run ends.
+
+use super::Trouble;
+use super::numbers::{count, steps};
+use super::records::{Record, Rhythm, What};
+use crate::output::records::BOX_COLUMNS;
+use crate::scene::format_run::{SteadySection, StopSection};
+use crate::scene::units::Units;
+
+/// When a run ends.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// After this many steps at the latest.
+    pub steps: u64,
+    /// Sooner, if this is met.
+    pub steady: Option<Steady>,
+}
+
+/// A steady-state criterion: three rows in a row change a column by less than `tolerance`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Steady {
+    /// Number of the record, of kind [`What::Box`].
+    pub record: usize,
+    /// Number of the column in [`BOX_COLUMNS`].
+    pub column: usize,
+    /// Largest relative change.
+    pub tolerance: f64,
+}
+
+/// The end of a run.
+pub(super) fn stop(
+    section: &StopSection,
+    records: &[Record],
+    units: &Units,
+) -> Result<Stop, Trouble> {
+    let by_time =
+        section.time.map(|si_time| steps("stop.time", si_time, units.si_dt)).transpose()?;
+    let by_steps = section.steps.map(|value| count("stop.steps", value)).transpose()?;
+    let limit = match (by_time, by_steps) {
+        (Some(a), Some(b)) => a.min(b),
+        (Some(limit), None) | (None, Some(limit)) => limit,
+        (None, None) => {
+            let problem = "nothing limits the run; a steady-state criterion may never be met";
+            let remedy = "add `time` (s) or `steps`, as the longest that the run may take";
+            return Err(Trouble::new("stop", problem, remedy));
+        }
+    };
+    let steady = section.steady.as_ref().map(|section| steady(section, records)).transpose()?;
+    Ok(Stop { steps: limit, steady })
+}
+
+fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble> {
+    let SteadySection { record: name, column, tolerance } = section;
+    let wanted =
+        |record: &Record| record.what == What::Box && matches!(record.rhythm, Rhythm::Every(_));
+    let number = records.iter().position(|record| record.name == *name && wanted(record));
+    let Some(record) = number else {
+        let names: Vec<_> = records.iter().filter(|r| wanted(r)).map(|r| &r.name).collect();
+        let problem = "there is no record of that name of kind `box` with `every` or `every_steps`";
+        let remedy = match names.is_empty() {
+            true => "add such a record".to_owned(),
+            false => format!("such records are: {names:?}"),
+        };
+        return Err(Trouble::new("stop.steady.record", problem, remedy));
+    };
+    let Some(number) = BOX_COLUMNS.iter().position(|known| known.name == column) else {
+        let known: Vec<_> = BOX_COLUMNS.iter().map(|column| column.name).collect();
+        let problem = "a record of kind `box` has no such column";
+        return Err(Trouble::new(
+            "stop.steady.column",
+            problem,
+            format!("its columns are: {}", known.join(", ")),
+        ));
+    };
+    if !(*tolerance > 0.0 && *tolerance < 1.0) {
+        let problem = "it must lie between 0 and 1 (exclusive)";
+        return Err(Trouble::new("stop.steady.tolerance", problem, "1e-6 is usual"));
+    }
+    Ok(Steady { record, column: number, tolerance: *tolerance })
+}

@@ -1,0 +1,203 @@
+//! What a scene file holds, key by key, as the user writes it: TOML, SI units.
+//!
+//! The comments on the keys are the reference: they go into the JSON schema, into
+//! `src/scene/REFERENCE.md`, and into the messages about missing keys. Nothing is checked here but
+//! names and types; see [`super::check`].
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::format_grains::{GrainsSection, SolidSection};
+use super::format_run::{
+    CheckpointSection, CompareSection, EngineSection, RecordSection, StopSection,
+};
+
+/// Three components x, y, z.
+pub type Triple = [f64; 3];
+
+/// A scene: one flow, with what to record and when to stop. All values in SI units.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SceneFile {
+    /// One line that says what the scene shows.
+    pub title: Option<String>,
+    /// The box.
+    pub domain: DomainSection,
+    /// The fluid.
+    pub fluid: FluidSection,
+    /// How long a time step is.
+    pub time: TimeSection,
+    /// The fluid's collision; MRT with d'Humieres' rates where the section is absent.
+    #[serde(default)]
+    pub collision: CollisionSection,
+    /// What happens at the six faces; those that are absent are periodic.
+    #[serde(default)]
+    pub faces: FacesSection,
+    /// A force on the fluid everywhere; none where the section is absent.
+    pub body_force: Option<BodyForceSection>,
+    /// How the fluid starts; at rest where the section is absent.
+    pub initial: Option<InitialSection>,
+    /// The grains; none where there is no such section.
+    #[serde(default)]
+    pub grains: Vec<GrainsSection>,
+    /// How grains act on the fluid; the defaults where the section is absent.
+    pub solid: Option<SolidSection>,
+    /// What to record, and how often.
+    #[serde(default)]
+    pub records: Vec<RecordSection>,
+    /// When the run ends: at the first of the given limits.
+    pub stop: StopSection,
+    /// When to save the state of the run, to go on from after an interruption.
+    pub checkpoint: Option<CheckpointSection>,
+    /// What computes it.
+    pub engine: Option<EngineSection>,
+    /// An exact solution to compare with at the end.
+    pub compare: Option<CompareSection>,
+}
+
+/// The box: its cells are cubes of edge `dx`. Give exactly one of `size` and `cells`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DomainSection {
+    /// Edge of a cell, m.
+    pub dx: f64,
+    /// Lengths of the box along x, y, z, m: each a whole number of `dx`.
+    pub size: Option<Triple>,
+    /// Cells along x, y, z.
+    pub cells: Option<[i64; 3]>,
+}
+
+/// The fluid.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FluidSection {
+    /// Density, kg/m3.
+    pub density: f64,
+    /// Kinematic viscosity, m2/s.
+    pub kinematic_viscosity: f64,
+}
+
+/// The time step. Give exactly one of `dt`, `tau` and `lattice_velocity`.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TimeSection {
+    /// Time step, s.
+    pub dt: Option<f64>,
+    /// Relaxation time in time steps, above 0.5: `dt = (tau - 0.5)/3 dx2/kinematic_viscosity`.
+    pub tau: Option<f64>,
+    /// Velocity in cells per time step that `reference_velocity` becomes; 0.01 to 0.1 is usual.
+    pub lattice_velocity: Option<f64>,
+    /// With `lattice_velocity`: the largest velocity that the flow should reach, m/s.
+    pub reference_velocity: Option<f64>,
+}
+
+/// The fluid's collision.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CollisionSection {
+    /// `mrt` (multiple relaxation times, the default) or `srt` (a single one).
+    #[serde(default)]
+    pub model: CollisionModel,
+    /// With `mrt`, the preset of the free rates: `dhumieres` (the default), `magic` or `srt`.
+    pub rates: Option<RatePreset>,
+    /// With `rates = "magic"`: the parameter Lambda, above 0; 3/16 = 0.1875 puts plane walls right.
+    pub magic: Option<f64>,
+    /// With `mrt`: rate of the energy, in (0, 2), instead of the preset's.
+    pub s_e: Option<f64>,
+    /// With `mrt`: rate of the energy squared, in (0, 2), instead of the preset's.
+    pub s_eps: Option<f64>,
+    /// With `mrt`: rate of the energy flux, in (0, 2), instead of the preset's.
+    pub s_q: Option<f64>,
+    /// With `mrt`: rate of the fourth-order stresses, in (0, 2), instead of the preset's.
+    pub s_pi: Option<f64>,
+    /// With `mrt`: rate of the third-order moments, in (0, 2), instead of the preset's.
+    pub s_m: Option<f64>,
+}
+
+/// Which collision.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum CollisionModel {
+    /// Multiple relaxation times.
+    #[default]
+    Mrt,
+    /// A single relaxation time.
+    Srt,
+}
+
+/// Where the free rates of MRT come from.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum RatePreset {
+    /// d'Humieres et al. 2002: 1.19, 1.4, 1.2, 1.4, 1.98.
+    #[default]
+    Dhumieres,
+    /// Two relaxation times with a given Lambda.
+    Magic,
+    /// All rates 1/tau.
+    Srt,
+}
+
+/// The six faces.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FacesSection {
+    /// The face at x = 0.
+    pub x_low: Option<FaceSection>,
+    /// The face at the far end of x.
+    pub x_high: Option<FaceSection>,
+    /// The face at y = 0.
+    pub y_low: Option<FaceSection>,
+    /// The face at the far end of y.
+    pub y_high: Option<FaceSection>,
+    /// The face at z = 0.
+    pub z_low: Option<FaceSection>,
+    /// The face at the far end of z.
+    pub z_high: Option<FaceSection>,
+}
+
+/// One face.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FaceSection {
+    /// `periodic`, `wall`, `free_slip`, `velocity_inlet`, `free_outflow` or `pressure`.
+    pub kind: FaceKind,
+    /// Velocity of a `wall` (in its plane; at rest where absent) or of a `velocity_inlet`, m/s.
+    pub velocity: Option<Triple>,
+    /// Pressure above that of the fluid at its reference density, at a `pressure` face, Pa.
+    pub pressure: Option<f64>,
+}
+
+/// What happens at a face.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum FaceKind {
+    /// What leaves here enters at the opposite face.
+    Periodic,
+    /// No slip.
+    Wall,
+    /// A mirror plane.
+    FreeSlip,
+    /// Fluid enters with a given velocity.
+    VelocityInlet,
+    /// Zero gradient along the normal.
+    FreeOutflow,
+    /// A given pressure.
+    Pressure,
+}
+
+/// A force on the fluid.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BodyForceSection {
+    /// Force per mass on the fluid, m/s2.
+    pub acceleration: Triple,
+}
+
+/// How the fluid starts.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialSection {
+    /// Velocity of the fluid everywhere, m/s.
+    pub velocity: Triple,
+}

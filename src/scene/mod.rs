@@ -1,0 +1,99 @@
+//! From a scene file to something that can be run.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `source.rs` | text, `--set`, and where each key stands |
+//! | `format.rs`, `format_grains.rs`, `format_run.rs` | the keys: names, types, and what they mean |
+//! | `check/` | values that make sense, in lattice units |
+//! | `units.rs` | SI units and lattice units |
+//! | `trouble.rs`, `words.rs` | the one message about what is wrong |
+//! | `schema.rs` | the JSON schema |
+
+pub mod check;
+pub mod format;
+pub mod format_grains;
+pub mod format_run;
+pub mod schema;
+mod source;
+pub mod trouble;
+pub mod units;
+mod words;
+
+use std::path::Path;
+
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::setup::Setup;
+
+pub use check::checkpoint::Interval;
+pub use check::grains::Attachment;
+pub use check::records::{Record, Rhythm, What};
+pub use check::stop::{Steady, Stop};
+pub use trouble::{SceneError, Trouble};
+pub use units::Units;
+
+use crate::exact::PlanePoiseuille;
+use source::Source;
+
+/// A scene that has been checked: what to compute, record and compare.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// One line that says what it shows; empty if there is none.
+    pub title: String,
+    /// Its text, with the changes of `--set`: what a run repeats it from.
+    pub text: String,
+    /// The files that it names.
+    pub attachments: Vec<Attachment>,
+    /// The scales.
+    pub units: Units,
+    /// The box, the fluid and the solids in lattice units.
+    pub setup: Setup,
+    /// Velocity at the start, lattice units.
+    pub initial_velocity: Vec3,
+    /// `time.reference_velocity`, if it is given, m/s.
+    pub si_reference_velocity: Option<f64>,
+    /// When to save the state.
+    pub checkpoint: Interval,
+    /// What to record.
+    pub records: Vec<Record>,
+    /// When to stop.
+    pub stop: Stop,
+    /// The exact solution to compare with.
+    pub exact: Option<PlanePoiseuille>,
+}
+
+impl Scene {
+    /// Reads and checks a scene file, after the changes `key=value` of `--set`.
+    pub fn load(path: &Path, changes: &[String]) -> Result<Self, Box<SceneError>> {
+        let name = path.display().to_string();
+        let bytes = std::fs::read(path).map_err(|error| {
+            let remedy = "give the name of a scene file, for example golden/poiseuille/scene.toml";
+            SceneError::whole_file(&name, format!("it cannot be read: {error}"), remedy)
+        })?;
+        Self::from_bytes(&name, bytes, path.parent().unwrap_or(Path::new("")), changes)
+    }
+
+    /// The same from a file's contents; `name` is what messages call it, and the files that it
+    /// names are looked for in `folder`.
+    pub fn from_bytes(
+        name: &str,
+        bytes: Vec<u8>,
+        folder: &Path,
+        changes: &[String],
+    ) -> Result<Self, Box<SceneError>> {
+        let source = Source::new(name, bytes, changes)?;
+        let file = source.read()?;
+        let scene = check::scene(&file, folder).map_err(|trouble| source.error(trouble))?;
+        Ok(Scene { text: source.text, ..scene })
+    }
+
+    /// The same scene with its text naming the copies of its files: [`Attachment::file_name`].
+    pub fn with_copied_attachments(self) -> Result<Self, Box<SceneError>> {
+        let changes: Vec<String> = self
+            .attachments
+            .iter()
+            .map(|copy| format!("grains[{}].file=\"{}\"", copy.section, copy.file_name()))
+            .collect();
+        let source = Source::new("scene.toml", self.text.into_bytes(), &changes)?;
+        Ok(Scene { text: source.text, ..self })
+    }
+}

@@ -1,0 +1,138 @@
+//! The JSON schema of scene files, made from the comments in [`super::format`].
+
+use serde_json::Value;
+
+use super::format::SceneFile;
+
+/// The schema, for editors that complete and check TOML.
+pub fn schema() -> Value {
+    let mut schema = schemars::schema_for!(SceneFile).to_value();
+    if let Some(object) = schema.as_object_mut() {
+        object.insert("title".to_owned(), "psmrt scene".into());
+    }
+    schema
+}
+
+/// The reference: all sections and keys as Markdown, in the order of the schema.
+pub fn reference() -> String {
+    let root = schema();
+    let mut text = String::from(REFERENCE_HEAD);
+    let mut sections = vec![(String::new(), &root)];
+    let mut next = 0;
+    while let Some((path, node)) = sections.get(next).cloned() {
+        next += 1;
+        let title = if path.is_empty() { "The top level".to_owned() } else { format!("`{path}`") };
+        text.push_str(&format!("\n## {title}\n\n{}\n\n", description(node)));
+        text.push_str("| key | value | needed | meaning |\n|---|---|---|---|\n");
+        let needed: Vec<&str> = node["required"]
+            .as_array()
+            .map_or_else(Vec::new, |names| names.iter().filter_map(Value::as_str).collect());
+        for (name, key) in node["properties"].as_object().into_iter().flatten() {
+            let (value, section) = value_of(&root, key);
+            if let Some((marks, inner)) = section {
+                let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+                let shown = if marks { format!("[[{path}]]") } else { format!("[{path}]") };
+                // Faces are alike: one table is enough.
+                if !sections.iter().any(|(_, known)| std::ptr::eq(*known, inner)) {
+                    sections.push((shown.trim_matches(['[', ']']).to_owned(), inner));
+                }
+            }
+            let needed = if needed.contains(&name.as_str()) { "yes" } else { "" };
+            let meaning = description(key).replace('|', "\\|");
+            text.push_str(&format!("| `{name}` | {value} | {needed} | {meaning} |\n"));
+        }
+    }
+    text.push_str(RECORDS_HEAD);
+    for (kind, columns) in crate::output::records::tables() {
+        let titles: Vec<String> = columns.iter().map(|column| column.title()).collect();
+        text.push_str(&format!("- `{kind}`: {}\n", titles.join(", ")));
+    }
+    text
+}
+
+const RECORDS_HEAD: &str = "
+## Columns of the records
+
+All tables begin with `time (s),step`. The superficial velocity is the mean mass flux, grains
+included, over the density of the fluid. Loads are those of the fluid on the grain in the last step.
+Pressure is that above the fluid at its reference density.
+
+";
+
+const REFERENCE_HEAD: &str = "# Scene files, key by key
+
+Made by `psmrt schema --markdown` from the comments in the code; do not edit. TOML, SI units. What is
+absent costs nothing. `psmrt check` says what a scene will be. Scenes to start from: `golden/`.
+";
+
+/// What may stand behind a key, in words, and the section that it opens, if it does: whether there
+/// may be several, and its node.
+fn value_of<'a>(root: &'a Value, key: &'a Value) -> (String, Option<(bool, &'a Value)>) {
+    let node = resolve(root, key).unwrap_or(key);
+    if node.get("properties").is_some() {
+        return ("section".to_owned(), Some((false, node)));
+    }
+    if let Some(names) = names(node) {
+        return (names, None);
+    }
+    let kind = match &node["type"] {
+        Value::Array(kinds) => kinds.first().and_then(Value::as_str).unwrap_or(""),
+        kind => kind.as_str().unwrap_or(""),
+    };
+    match kind {
+        "array" => {
+            let item = resolve(root, &node["items"]).unwrap_or(&node["items"]);
+            if item.get("properties").is_some() {
+                return ("sections".to_owned(), Some((true, item)));
+            }
+            match (node.get("minItems").and_then(Value::as_u64), names(item)) {
+                (Some(count), _) => (format!("{count} numbers"), None),
+                (None, names) => (format!("list of {}", names.unwrap_or_default()), None),
+            }
+        }
+        "integer" => ("whole number".to_owned(), None),
+        "string" => ("text".to_owned(), None),
+        kind => (kind.to_owned(), None),
+    }
+}
+
+/// The names that an enumeration allows.
+fn names(node: &Value) -> Option<String> {
+    let choices = node.get("oneOf").or_else(|| node.get("enum"))?.as_array()?;
+    let name = |choice: &Value| Some(choice.get("const").unwrap_or(choice).as_str()?.to_owned());
+    let names: Vec<String> = choices.iter().filter_map(name).collect();
+    Some(names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "))
+}
+
+fn description(node: &Value) -> String {
+    node["description"].as_str().unwrap_or("").replace('\n', " ")
+}
+
+/// The description of a key given by its dotted path, if there is such a key.
+pub fn describe(key: &str) -> Option<String> {
+    let root = schema();
+    let mut at = &root;
+    for part in key.split('.') {
+        let (name, indexed) = match part.split_once('[') {
+            Some((name, _)) => (name, true),
+            None => (part, false),
+        };
+        at = resolve(&root, at)?.get("properties")?.get(name)?;
+        if indexed {
+            at = at.get("items")?;
+        }
+    }
+    let description = at.get("description").or_else(|| resolve(&root, at)?.get("description"))?;
+    Some(description.as_str()?.replace('\n', " "))
+}
+
+/// Follows `$ref`, also inside the `anyOf` of an optional section.
+pub(super) fn resolve<'a>(root: &'a Value, node: &'a Value) -> Option<&'a Value> {
+    let reference = node
+        .get("$ref")
+        .or_else(|| node.get("anyOf")?.as_array()?.iter().find_map(|choice| choice.get("$ref")));
+    match reference {
+        Some(reference) => root.pointer(reference.as_str()?.trim_start_matches('#')),
+        None => Some(node),
+    }
+}

@@ -1,0 +1,155 @@
+//! The command line as a newcomer uses it.
+
+mod cli;
+
+use std::fs;
+use std::path::Path;
+
+use cli::{Folder, psmrt, psmrt_in, stderr, stdout};
+use serde_json::Value;
+
+const POISEUILLE: &str = "golden/poiseuille/scene.toml";
+
+fn json(output: &std::process::Output) -> Value {
+    let text = stdout(output);
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// Runs the Poiseuille scene with changes; its comparison.
+fn poiseuille(folder: &Folder, name: &str, changes: &[&str]) -> Value {
+    let out = folder.path(name);
+    let mut arguments = vec!["run", POISEUILLE, "--json", "--out", out.to_str().unwrap()];
+    changes.iter().for_each(|change| arguments.extend(["--set", change]));
+    let output = psmrt(&arguments);
+    assert!(output.status.success(), "{}", stderr(&output));
+    json(&output)["comparison"].clone()
+}
+
+#[test]
+fn the_poiseuille_scene_is_exact_and_other_rates_err_by_the_known_slip() {
+    let folder = Folder::new("poiseuille");
+    let error = |found: &Value, key: &str| found[key].as_f64().unwrap();
+    let magic = poiseuille(&folder, "magic", &[]);
+    // The run stops when 500 steps change the flow by 1e-12; 0.6 of that is left to go.
+    assert!(error(&magic, "relative_l2") < 1e-12, "{magic}");
+    for (name, changes) in [
+        ("dhumieres", &["collision={ rates = \"dhumieres\" }"] as &[&str]),
+        ("srt", &["collision={ model = \"srt\" }", "time.tau=1.5"]),
+    ] {
+        let found = poiseuille(&folder, name, changes);
+        let (l2, explained) = (error(&found, "relative_l2"), error(&found, "explained_l2"));
+        assert!(l2 > 1e-4 && (l2 / explained - 1.0).abs() < 1e-5, "{name}: {found}");
+    }
+    for file in ["box.csv", "profile.csv", "comparison.csv", "comparison.svg", "profile.svg"] {
+        assert!(folder.path("magic").join(file).is_file(), "{file}");
+    }
+    let table = fs::read_to_string(folder.path("magic").join("comparison.csv")).unwrap();
+    assert!(table.starts_with("position (m),velocity (m/s),exact_velocity (m/s)\n"), "{table}");
+    assert_eq!(table.lines().count(), 1 + 32);
+    let facts = fs::read_to_string(folder.path("magic").join("run.json")).unwrap();
+    let facts: Value = serde_json::from_str(&facts).unwrap();
+    assert_eq!(facts["state"], "steady");
+    assert_eq!(facts["engine"], "reference");
+    assert!(facts["program"]["version"].is_string() && facts["wall_seconds"].is_number());
+}
+
+#[test]
+fn a_run_can_be_repeated_from_its_folder() {
+    let folder = Folder::new("repeated");
+    poiseuille(&folder, "first", &["time.tau=0.7", "stop.steps=1500"]);
+    let scene = folder.path("first/scene.toml");
+    let out = folder.path("again");
+    let arguments = ["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()];
+    assert!(psmrt(&arguments).status.success());
+    for file in ["box.csv", "profile.csv", "comparison.csv", "scene.toml"] {
+        let bytes = |name: &str| fs::read(folder.path(name).join(file)).unwrap();
+        assert_eq!(bytes("first"), bytes("again"), "{file}");
+    }
+}
+
+#[test]
+fn results_go_to_a_fresh_folder_each_time() {
+    let folder = Folder::new("fresh");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(POISEUILLE);
+    let arguments = ["run", scene.to_str().unwrap(), "--set", "stop.steps=10"];
+    for expected in ["out/poiseuille", "out/poiseuille-2", "out/poiseuille-3"] {
+        let output = psmrt_in(&folder.path(""), &arguments);
+        assert!(output.status.success(), "{}", stderr(&output));
+        assert!(stdout(&output).contains(&format!("results in {expected}\n")), "{output:?}");
+        assert!(folder.path(expected).join("scene.toml").is_file());
+    }
+}
+
+#[test]
+fn check_tells_numbers_models_and_warnings_and_makes_nothing() {
+    let output = psmrt(&["check", POISEUILLE]);
+    let said = stdout(&output);
+    assert!(output.status.success());
+    for part in ["tau ", "Mach number", "Reynolds number", "memory", "MRT", "face -y: wall"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert!(said.contains("no warnings"), "{said}");
+    let found = json(&psmrt(&["check", POISEUILLE, "--json", "--set", "time.tau=0.505"]));
+    let tau = found["numbers"].as_array().unwrap().iter().find(|n| n["name"] == "tau").unwrap();
+    assert!((tau["value"].as_f64().unwrap() - 0.505).abs() < 1e-12);
+    assert!(found["warnings"][0]["reason"].as_str().unwrap().contains("close to 0.5"), "{found}");
+    assert!(found["engines"][0]["cell_updates_per_second"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn every_golden_scene_passes_the_check() {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
+    let scenes: Vec<_> = fs::read_dir(golden)
+        .unwrap()
+        .map(|entry| entry.unwrap().path().join("scene.toml"))
+        .filter(|path| path.exists())
+        .collect();
+    assert!(scenes.len() >= 2);
+    for scene in scenes {
+        let output = psmrt(&["check", scene.to_str().unwrap()]);
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn a_broken_run_says_why_and_exits_with_1() {
+    let folder = Folder::new("broken");
+    let out = folder.path("out");
+    let output = psmrt(&[
+        "run",
+        POISEUILLE,
+        "--out",
+        out.to_str().unwrap(),
+        "--set",
+        "body_force.acceleration=[60.0, 0.0, 0.0]",
+    ]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("Probable cause: the body force"), "{}", stderr(&output));
+    let facts = fs::read_to_string(out.join("run.json")).unwrap();
+    assert!(facts.contains("\"failed\""), "{facts}");
+}
+
+#[test]
+fn info_schema_and_completions_print_what_they_should() {
+    let info = json(&psmrt(&["info", "--json"]));
+    assert!(info["machine"]["threads"].as_u64().unwrap() >= 1);
+    assert!(stdout(&psmrt(&["info"])).contains("engines"));
+    let schema = json(&psmrt(&["schema"]));
+    assert_eq!(schema["title"], "psmrt scene");
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        assert!(stdout(&psmrt(&["completions", shell])).contains("psmrt"), "{shell}");
+    }
+    for command in ["run", "check", "resume", "schema", "completions"] {
+        assert!(stdout(&psmrt(&[command, "--help"])).contains("Example"), "{command}");
+    }
+}
+
+#[test]
+fn the_reference_of_scene_files_is_up_to_date() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene/REFERENCE.md");
+    let written = fs::read_to_string(path).unwrap();
+    assert!(
+        written == psmrt::scene::schema::reference(),
+        "run: cargo run -- schema --markdown > src/scene/REFERENCE.md"
+    );
+}

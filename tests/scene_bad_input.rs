@@ -1,0 +1,317 @@
+//! Wrong scenes: each gives one message with file, line, key, value, what is allowed and what to
+//! do; exit code 2; no panic; nothing made.
+
+mod cli;
+
+use cli::{Folder, psmrt_in, stderr, stdout};
+
+/// A scene that runs: each wrong one differs from it in one place.
+const GOOD: &str = r#"title = "good"
+[domain]
+size = [1e-3, 5e-4, 5e-4]
+dx = 2.5e-5
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.8
+[collision]
+model = "mrt"
+rates = "magic"
+magic = 0.25
+s_e = 1.1
+[faces]
+x_low = { kind = "velocity_inlet", velocity = [1e-3, 0.0, 0.0] }
+x_high = { kind = "pressure", pressure = 0.0 }
+y_low = { kind = "wall", velocity = [1e-3, 0.0, 0.0] }
+y_high.kind = "free_slip"
+[body_force]
+acceleration = [0.0, 0.0, 0.0]
+[initial]
+velocity = [1e-3, 0.0, 0.0]
+[[grains]]
+kind = "sphere"
+centre = [3e-4, 2.5e-4, 2.5e-4]
+diameter = 2e-4
+[[grains]]
+kind = "sphere"
+centre = [7e-4, 2.5e-4, 2.5e-4]
+diameter = 1e-4
+motion = "prescribed"
+spin = [0.0, 1.0, 0.0]
+[solid]
+weighting = "noble_torczynski"
+coverage = "sampled"
+samples = 4
+[[records]]
+name = "box"
+kind = "box"
+every_steps = 100
+[[records]]
+name = "line"
+kind = "profile"
+axis = "x"
+point = [0.0, 2.5e-4, 2.5e-4]
+[[records]]
+name = "all"
+kind = "fields"
+formats = ["vti"]
+[checkpoint]
+every_steps = 1000
+[stop]
+time = 0.01
+[stop.steady]
+record = "box"
+column = "density"
+tolerance = 1e-6
+[engine]
+kind = "reference"
+"#;
+
+/// A wrong scene: what is replaced in [`GOOD`] by what; the key; what is said.
+struct Bad(&'static str, &'static str, &'static str, &'static str);
+
+#[rustfmt::skip]
+const BAD: &[Bad] = &[
+    // Names.
+    Bad("density = 1000.0", "densty = 1000.0", "fluid.densty", "did you mean `density`?"),
+    Bad("[fluid]", "[fluids]", "fluids", "did you mean `fluid`?"),
+    Bad("s_e = 1.1", "s_nu = 1.1", "collision.s_nu", "has no key `s_nu`"),
+    Bad("dx = 2.5e-5", "dx = 2.5e-5\ncolour = 3", "domain.colour", "has no key `colour`"),
+    Bad("\"velocity_inlet\",", "\"velocity_inlt\",", "faces.x_low.kind", "did you mean `velocity_inlet`?"),
+    Bad("model = \"mrt\"", "model = \"MRT\"", "collision.model", "known"),
+    Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\nkind = \"bx\"", "records[0].kind", "did you mean `box`?"),
+    Bad("axis = \"x\"", "axis = \"w\"", "records[1].axis", "x, y, z"),
+    Bad("kind = \"reference\"", "kind = \"cuda\"", "engine.kind", "reference"),
+    Bad("formats = [\"vti\"]", "formats = [\"hdf5\"]", "records[2].formats", "vti, npy"),
+    // Types.
+    Bad("density = 1000.0", "density = \"1000\"", "fluid.density", "a number"),
+    Bad("tau = 0.8", "tau = true", "time.tau", "a number"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = [1e-3, 5e-4]", "domain.size", "[x, y, z]"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = 1e-3", "domain.size", "[x, y, z]"),
+    Bad("every_steps = 100\n", "every_steps = 100.5\n", "records[0].every_steps", "a whole number"),
+    Bad("[body_force]\nacceleration = [0.0, 0.0, 0.0]", "[[body_force]]\nacceleration = [0.0, 0.0, 0.0]", "body_force", "only one such section"),
+    Bad("y_high.kind = \"free_slip\"", "y_high = \"free_slip\"", "faces.y_high", "FaceSection"),
+    // Missing.
+    Bad("dx = 2.5e-5\n", "", "domain.dx", "Edge of a cell, m"),
+    Bad("kinematic_viscosity = 1e-6\n", "", "fluid.kinematic_viscosity", "m2/s"),
+    Bad("tau = 0.8\n", "", "time", "`dt` (s), `tau`"),
+    Bad("magic = 0.25\n", "", "collision.magic", "0.1875"),
+    Bad("size = [1e-3, 5e-4, 5e-4]\n", "", "domain", "size = [x, y, z]"),
+    Bad("diameter = 2e-4\n", "", "grains[0].diameter", "in m"),
+    Bad("centre = [3e-4, 2.5e-4, 2.5e-4]\n", "", "grains[0].centre", "in m"),
+    Bad("axis = \"x\"\n", "", "records[1].axis", "a profile or slice needs it"),
+    Bad("spin = [0.0, 1.0, 0.0]\n", "", "grains[1].motion", "rad/s"),
+    Bad("samples = 4\n", "", "solid.samples", "sampled"),
+    Bad("time = 0.01\n", "", "stop", "`steps`"),
+    Bad("velocity = [1e-3, 0.0, 0.0] }\nx_high", "}\nx_high", "faces.x_low.velocity", "m/s"),
+    Bad(", pressure = 0.0", "", "faces.x_high.pressure", "Pa"),
+    // Values.
+    Bad("density = 1000.0", "density = -1000.0", "fluid.density", "above 0"),
+    Bad("density = 1000.0", "density = nan", "fluid.density", "positive and finite"),
+    Bad("kinematic_viscosity = 1e-6", "kinematic_viscosity = inf", "fluid.kinematic_viscosity", "positive and finite"),
+    Bad("kinematic_viscosity = 1e-6", "kinematic_viscosity = 0", "fluid.kinematic_viscosity", "above 0"),
+    Bad("dx = 2.5e-5", "dx = -2.5e-5", "domain.dx", "above 0"),
+    Bad("dx = 2.5e-5", "dx = 2.4e-5", "domain.size", "whole number"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = [1e-3, -5e-4, 5e-4]", "domain.size", "above 0"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = [1e9, 5e-4, 5e-4]", "domain.size", "too many"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = [260.0, 5e-4, 5e-4]", "domain.size", "this machine has"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = [1e300, 1e300, 1e300]", "domain.size", "too many"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "cells = [40, 0, 20]", "domain.cells", "at least 1"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "cells = [40, -3, 20]", "domain.cells", "at least 1"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "cells = [9000000000, 9000000000, 9]", "domain.cells", "too many"),
+    Bad("tau = 0.8", "tau = 0.5", "time.tau", "above 0.5"),
+    Bad("tau = 0.8", "tau = nan", "time.tau", "above 0.5"),
+    Bad("tau = 0.8", "dt = 0.0", "time.dt", "above 0"),
+    Bad("tau = 0.8", "dt = 1e-30", "time.dt", "tau"),
+    Bad("tau = 0.8", "lattice_velocity = 0.9\nreference_velocity = 1e-3", "time.lattice_velocity", "at most 0.2"),
+    Bad("magic = 0.25", "magic = -0.25", "collision.magic", "positive"),
+    Bad("s_e = 1.1", "s_e = 2.0", "collision.s_e", "between 0 and 2"),
+    Bad("acceleration = [0.0, 0.0, 0.0]", "acceleration = [0.0, nan, 0.0]", "body_force.acceleration", "finite"),
+    Bad("acceleration = [0.0, 0.0, 0.0]", "acceleration = [0.0, 1e9, 0.0]", "body_force.acceleration", "weaker"),
+    Bad("samples = 4", "samples = 0", "solid.samples", "between 1 and 100"),
+    Bad("time = 0.01", "time = 1e-9", "stop.time", "half a time step"),
+    Bad("time = 0.01", "time = 1e300", "stop.time", "time steps"),
+    Bad("time = 0.01", "steps = 0", "stop.steps", "at least 1"),
+    Bad("tolerance = 1e-6", "tolerance = 1.5", "stop.steady.tolerance", "between 0 and 1"),
+    Bad("every_steps = 1000", "every_steps = -1", "checkpoint.every_steps", "at least 1"),
+    Bad("every_steps = 1000", "every_minutes = 0.0", "checkpoint.every_minutes", "above 0"),
+    Bad("formats = [\"vti\"]", "formats = []", "records[2].formats", "empty"),
+    Bad("name = \"line\"", "name = \"a/b\"", "records[1].name", "letters"),
+    Bad("name = \"line\"", "name = \"box\"", "records[1].name", "another record"),
+    Bad("point = [0.0, 2.5e-4, 2.5e-4]", "point = [0.0, 9e-4, 2.5e-4]", "records[1].point", "outside the box"),
+    // Too fast.
+    Bad("velocity = [1e-3, 0.0, 0.0] }\nx_high", "velocity = [9.0, 0.0, 0.0] }\nx_high", "faces.x_low.velocity", "Mach"),
+    Bad("spin = [0.0, 1.0, 0.0]", "spin = [0.0, 1e6, 0.0]", "grains[1].spin", "cells per time step"),
+    Bad("pressure = 0.0", "pressure = 1e6", "faces.x_high.pressure", "Pa are allowed"),
+    // Contradictions.
+    Bad("tau = 0.8", "tau = 0.8\ndt = 1e-5", "time.tau", "exactly one"),
+    Bad("tau = 0.8", "tau = 0.8\nlattice_velocity = 0.05", "time.lattice_velocity", "exactly one"),
+    Bad("tau = 0.8", "tau = 0.8\nreference_velocity = 0.05", "time.reference_velocity", "belongs to"),
+    Bad("dx = 2.5e-5", "dx = 2.5e-5\ncells = [40, 20, 20]", "domain.cells", "one of them"),
+    Bad("model = \"mrt\"", "model = \"srt\"", "collision.rates", "belongs to"),
+    Bad("rates = \"magic\"", "rates = \"dhumieres\"", "collision.magic", "belongs to"),
+    Bad("every_steps = 100\n", "every_steps = 100\nevery = 1.0\n", "records[0].every_steps", "one of them"),
+    Bad("y_high.kind = \"free_slip\"", "y_high = { kind = \"free_slip\", velocity = [1e-3, 0.0, 0.0] }", "faces.y_high.velocity", "belongs to"),
+    Bad("pressure = 0.0 }", "pressure = 0.0, velocity = [0.0, 0.0, 0.0] }", "faces.x_high.velocity", "belongs to"),
+    Bad("y_high.kind = \"free_slip\"", "", "faces.y_low", "periodic"),
+    Bad("kind = \"pressure\", pressure = 0.0", "kind = \"wall\"", "faces.x_low", "no face lets it out"),
+    Bad("kind = \"velocity_inlet\", velocity = [1e-3, 0.0, 0.0] }\nx_high = { kind = \"pressure\", pressure = 0.0", "kind = \"wall\" }\nx_high = { kind = \"free_outflow\"", "faces.x_high", "nothing determines the flow"),
+    Bad("\"wall\", velocity = [1e-3, 0.0, 0.0]", "\"wall\", velocity = [0.0, 1e-3, 0.0]", "faces.y_low.velocity", "its own plane"),
+    Bad("axis = \"x\"\npoint", "axis = \"x\"\nformats = [\"vti\"]\npoint", "records[1].formats", "belongs to"),
+    Bad("axis = \"x\"\npoint", "axis = \"x\"\nquantity = \"speed\"\npoint", "records[1].quantity", "belongs to"),
+    Bad("record = \"box\"", "record = \"line\"", "stop.steady.record", "no record of that name"),
+    Bad("column = \"density\"", "column = \"mass\"", "stop.steady.column", "superficial_velocity_x"),
+    Bad("[engine]", "[compare]\nexact = \"plane_poiseuille\"\n[engine]", "compare.exact", "no plane Poiseuille flow"),
+    // Grains.
+    Bad("diameter = 2e-4", "diameter = -2e-4", "grains[0].diameter", "above 0"),
+    Bad("diameter = 2e-4", "diameter = 4e-5", "grains[0].diameter", "cells across"),
+    Bad("diameter = 2e-4", "diameter = 2e-4\nlattice = \"sc\"", "grains[0].lattice", "belongs to"),
+    Bad("diameter = 2e-4", "diameter = 2e-4\nspin = [0.0, 0.0, 1.0]", "grains[0].spin", "belongs to"),
+    Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [3e-3, 2.5e-4, 2.5e-4]", "grains[0].centre", "outside the box"),
+    Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [5e-5, 2.5e-4, 2.5e-4]", "grains[0].centre", "sticks"),
+    Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [6e-4, 2.5e-4, 2.5e-4]", "grains[1].centre", "overlap"),
+    Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [inf, 2.5e-4, 2.5e-4]", "grains[0].centre", "finite"),
+    Bad("motion = \"prescribed\"\nspin = [0.0, 1.0, 0.0]", "motion = \"free\"", "grains[1].motion", "not built yet"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"csv\"", "grains[0].file", "relative"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"csv\"\nfile = \"none.csv\"", "grains[0].file", "cannot be read"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"array\"\nlattice = \"sc\"\nsolid_fraction = 0.2", "grains[0].counts", "cubes"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"array\"\nlattice = \"sc\"\ncounts = [2, 1, 1]\nsolid_fraction = 1.2", "grains[0].solid_fraction", "0.5236"),
+    // Not TOML.
+    Bad("density = 1000.0", "density = ", "", "not valid TOML"),
+    Bad("density = 1000.0", "density = 1000.0\ndensity = 1000.0", "", "not valid TOML"),
+    Bad("[fluid]", "[fluid", "", "not valid TOML"),
+    Bad("density = 1000.0", "density = 1000 kg", "", "not valid TOML"),
+];
+
+fn check(folder: &Folder, name: &str) -> std::process::Output {
+    psmrt_in(&folder.path(""), &["check", name])
+}
+
+#[test]
+fn the_scene_that_the_wrong_ones_differ_from_is_right() {
+    let folder = Folder::new("good");
+    folder.write("scene.toml", GOOD);
+    let output = check(&folder, "scene.toml");
+    assert!(output.status.success(), "{}", stderr(&output));
+}
+
+#[test]
+fn each_wrong_scene_gets_one_message_with_its_place_and_remedy() {
+    assert!(BAD.len() >= 60);
+    let folder = Folder::new("bad");
+    let mut wrong = Vec::new();
+    for Bad(from, to, key, told) in BAD {
+        let at = GOOD.find(from).unwrap_or_else(|| panic!("{from}"));
+        let name = "wrong.toml";
+        folder.write(name, format!("{}{to}{}", &GOOD[..at], &GOOD[at + from.len()..]));
+        let output = psmrt_in(&folder.path(""), &["run", name]);
+        let said = stderr(&output);
+        let case = format!("{from:?} -> {to:?}:\n{said}");
+        for (right, claim) in [
+            (output.status.code() == Some(2), "exit code 2"),
+            (said.matches("error: ").count() == 1, "one message"),
+            (said.starts_with(&format!("error: {key}")), "the key comes first"),
+            (said.contains(told), told),
+            (said.contains("--> wrong.toml:"), "file and line"),
+            (said.contains("= help: "), "a remedy"),
+            (folder.entries() == [name], "nothing is made"),
+        ] {
+            if !right {
+                wrong.push(format!("not so: {claim}, in {case}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_line_is_that_of_the_value() {
+    let folder = Folder::new("line");
+    folder.write("wrong.toml", GOOD.replace("tau = 0.8", "tau = 0.4"));
+    let output = psmrt_in(&folder.path(""), &["check", "wrong.toml", "--json"]);
+    let said: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let error = &said["error"];
+    assert_eq!(error["file"], "wrong.toml");
+    assert_eq!(error["line"], 9);
+    assert_eq!(error["key"], "time.tau");
+    assert_eq!(error["value"], "0.4");
+}
+
+#[test]
+fn files_that_are_no_scenes_are_refused() {
+    let folder = Folder::new("no_scene");
+    folder.write("empty.toml", "");
+    folder.write("blank.toml", " \n\n");
+    folder.write("binary.toml", [0x7f, b'E', b'L', b'F', 0xff, 0xfe, 0, 1]);
+    folder.write("nul.toml", [0; 64]);
+    folder.write("long.toml", "a".repeat(1 << 20));
+    folder.write("deep.toml", "a = ".to_owned() + &"[".repeat(100_000));
+    folder.write("comment.toml", "# nothing\n");
+    let before = folder.entries();
+    for name in before.iter().map(String::as_str).chain(["absent.toml", "."]) {
+        let output = psmrt_in(&folder.path(""), &["run", name]);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{name}: {said:.2000}");
+        assert!(said.contains(name) && said.contains("help: "), "{name}: {said:.2000}");
+    }
+    assert_eq!(folder.entries(), before);
+}
+
+#[test]
+fn wrong_lists_of_grains_name_their_line() {
+    let scene = GOOD.replace(
+        "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4",
+        "kind = \"csv\"\nfile = \"grains.csv\"",
+    );
+    let head = "x (m),y (m),z (m),diameter (m)\n";
+    let folder = Folder::new("lists");
+    folder.write("scene.toml", scene);
+    for (list, told) in [
+        ("x,y,z,d\n1,2,3,4\n".to_owned(), "column 1 is \"x\", not \"x (m)\""),
+        (format!("{head}1e-4,2e-4,2e-4\n"), "line 2"),
+        (format!("{head}3e-4,2.5e-4,2.5e-4,2e-4\n1e-4,two,2e-4,1e-4\n"), "line 3: y (m) = \"two\""),
+        (format!("{head}1e-4,2e-4,2e-4,-1e-4\n"), "diameter (m) = \"-1e-4\""),
+        (format!("{head}1e-4,2e-4,NaN,1e-4\n"), "z (m) = \"NaN\""),
+        (head.to_owned(), "no grains in it"),
+        (head.replace('\n', ",density (kg/m3)\n"), "a column too many"),
+        (format!("{head}3e-4,2.5e-4,2.5e-4,2e-4\n3e-4,2.5e-4,2.5e-4,2e-4\n"), "overlap"),
+    ] {
+        folder.write("grains.csv", &list);
+        let output = check(&folder, "scene.toml");
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{list}\n{said}");
+        assert!(said.contains(told) && said.contains("grains[0].file"), "{list}\n{said}");
+    }
+    folder.write("grains.csv", format!("{head}3e-4,2.5e-4,2.5e-4,2e-4\n"));
+    assert!(check(&folder, "scene.toml").status.success());
+}
+
+#[test]
+fn wrong_changes_on_the_command_line_are_refused() {
+    let folder = Folder::new("set");
+    folder.write("scene.toml", GOOD);
+    for (change, told) in [
+        ("time.tau", "has no `=`"),
+        ("=3", "names no key"),
+        ("grains[7].diameter=1e-4", "no such section"),
+        ("time.tau=0.5", "above 0.5"),
+        ("time.tua=0.6", "did you mean `tau`?"),
+        ("title.x=1", "no such"),
+    ] {
+        let output = psmrt_in(&folder.path(""), &["run", "scene.toml", "--set", change]);
+        assert_eq!(output.status.code(), Some(2), "{change}");
+        assert!(stderr(&output).contains(told), "{change}: {}", stderr(&output));
+    }
+    assert_eq!(folder.entries(), ["scene.toml"]);
+}
+
+#[test]
+fn a_folder_with_something_in_it_is_never_written_to() {
+    let folder = Folder::new("occupied");
+    folder.write("scene.toml", GOOD);
+    let output = psmrt_in(&folder.path(""), &["run", "scene.toml", "--out", "."]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("not empty"), "{}", stderr(&output));
+    assert_eq!(folder.entries(), ["scene.toml"]);
+}

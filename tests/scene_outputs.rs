@@ -1,0 +1,144 @@
+//! Fields and grains as files: what NumPy and VTK read is what was computed.
+
+mod cli;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use cli::{Folder, psmrt, stderr};
+
+const SCENE: &str = r#"
+[domain]
+cells = [6, 5, 4]
+dx = 1e-4
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.8
+[faces]
+z_low.kind = "wall"
+z_high = { kind = "wall", velocity = [1e-3, 0.0, 0.0] }
+[[grains]]
+kind = "sphere"
+centre = [3e-4, 2e-4, 2e-4]
+diameter = 2.5e-4
+[[records]]
+name = "fields"
+kind = "fields"
+formats = ["vti", "npy"]
+every_steps = 20
+[[records]]
+name = "grains"
+kind = "grains"
+every_steps = 20
+[stop]
+steps = 40
+"#;
+
+fn run(folder: &Folder) -> PathBuf {
+    let scene = folder.write("scene.toml", SCENE);
+    let out = folder.path("out");
+    let output = psmrt(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    out
+}
+
+/// Shape and values of an array, read as numpy.lib.format describes it.
+fn npy(path: &Path) -> (String, Vec<f64>) {
+    let bytes = fs::read(path).unwrap();
+    assert_eq!(&bytes[..8], b"\x93NUMPY\x01\x00");
+    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    assert_eq!((10 + length) % 64, 0);
+    let header = String::from_utf8(bytes[10..10 + length].to_vec()).unwrap();
+    assert!(header.contains("'<f8'") && header.ends_with('\n'), "{header}");
+    let shape = header.split('(').nth(1).unwrap().split(')').next().unwrap();
+    let values = bytes[10 + length..].chunks(8);
+    (shape.to_owned(), values.map(|b| f64::from_le_bytes(b.try_into().unwrap())).collect())
+}
+
+#[test]
+fn arrays_have_the_shape_and_order_of_the_box() {
+    let folder = Folder::new("npy");
+    let out = run(&folder);
+    let (shape, velocity) = npy(&out.join("fields/velocity_000000000040.npy"));
+    assert_eq!(shape, "4, 5, 6, 3,");
+    assert_eq!(velocity.len(), 4 * 5 * 6 * 3);
+    // The upper wall (high z) drags the fluid along x; the last index runs over x, y, z.
+    let mean = |z: usize, component: usize| {
+        let plane = velocity[z * 90..(z + 1) * 90].iter().skip(component).step_by(3);
+        plane.sum::<f64>() / 30.0
+    };
+    assert!(mean(3, 0) > 5.0 * mean(0, 0) && mean(3, 0) < 1e-3, "{}", mean(3, 0));
+    assert!(mean(3, 0) > 100.0 * mean(3, 1).abs());
+    let (shape, fraction) = npy(&out.join("fields/solid_fraction_000000000040.npy"));
+    assert_eq!(shape, "4, 5, 6,");
+    // The volume of the sphere, in cells.
+    let volume = std::f64::consts::PI / 6.0 * 2.5_f64.powi(3);
+    assert!((fraction.iter().sum::<f64>() / volume - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn image_data_hold_the_same_values_in_single_precision() {
+    let folder = Folder::new("vti");
+    let out = run(&folder);
+    let bytes = fs::read(out.join("fields/fields_000000000040.vti")).unwrap();
+    let text = String::from_utf8_lossy(&bytes);
+    assert!(text.contains("WholeExtent=\"0 6 0 5 0 4\""), "{text:.400}");
+    let at = bytes.windows(3).position(|w| w == b">\n_").unwrap() + 3;
+    // Pressure comes first: its length in bytes, then its values.
+    let length = u64::from_le_bytes(bytes[at..at + 8].try_into().unwrap());
+    assert_eq!(length, 120 * 4);
+    let (_, pressure) = npy(&out.join("fields/pressure_000000000040.npy"));
+    for (four, value) in bytes[at + 8..].chunks(4).zip(pressure) {
+        let found = f64::from(f32::from_le_bytes(four.try_into().unwrap()));
+        assert!((found - value).abs() <= 0.5 * f64::from(f32::EPSILON) * value.abs());
+    }
+    let series = fs::read_to_string(out.join("fields.pvd")).unwrap();
+    for step in ["000000000000", "000000000020", "000000000040"] {
+        assert!(series.contains(&format!("file=\"fields/fields_{step}.vti\"")), "{series}");
+        assert!(out.join(format!("fields/fields_{step}.vti")).exists());
+        assert!(out.join(format!("grains/grains_{step}.vtp")).exists());
+    }
+}
+
+const PYTHON: &str = r#"
+import sys, numpy as np, vtk
+from vtk.util.numpy_support import vtk_to_numpy
+folder = sys.argv[1]
+def read(reader, path):
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(path))
+    reader.SetFileName(path); reader.Update()
+    assert not errors, errors
+    return reader.GetOutput()
+for step in ["000000000000", "000000000020", "000000000040"]:
+    image = read(vtk.vtkXMLImageDataReader(), f"{folder}/fields/fields_{step}.vti")
+    assert image.GetDimensions() == (7, 6, 5), image.GetDimensions()
+    assert np.allclose(image.GetBounds(), (0, 6e-4, 0, 5e-4, 0, 4e-4))
+    for name, file, shape in [("pressure (Pa)", "pressure", (4, 5, 6)),
+                              ("velocity (m/s)", "velocity", (4, 5, 6, 3)),
+                              ("solid fraction", "solid_fraction", (4, 5, 6))]:
+        array = np.load(f"{folder}/fields/{file}_{step}.npy")
+        assert array.shape == shape and array.dtype == np.float64
+        cells = vtk_to_numpy(image.GetCellData().GetArray(name)).reshape(shape)
+        assert np.array_equal(cells, array.astype(np.float32)), name
+    grains = read(vtk.vtkXMLPolyDataReader(), f"{folder}/grains/grains_{step}.vtp")
+    assert grains.GetNumberOfPoints() == grains.GetNumberOfVerts() == 1
+    assert np.allclose(grains.GetPoint(0), (3e-4, 2e-4, 2e-4))
+    assert np.isclose(vtk_to_numpy(grains.GetPointData().GetArray("diameter (m)"))[0], 2.5e-4)
+    force = vtk_to_numpy(grains.GetPointData().GetArray("force (N)"))
+    assert force.shape == (1, 3) and (step == "000000000000" or force[0, 0] > 0)
+print("read by VTK", vtk.vtkVersion().GetVTKVersion(), "and NumPy", np.__version__)
+"#;
+
+#[test]
+#[ignore = "needs Python with `pip install vtk numpy`"]
+fn vtk_and_numpy_read_all_files() {
+    let folder = Folder::new("python");
+    let out = run(&folder);
+    let output = Command::new("python3").args(["-c", PYTHON]).arg(&out).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(cli::stdout(&output).contains("read by VTK"));
+}
