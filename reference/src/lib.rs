@@ -1,4 +1,4 @@
-//! The oracle of psmrt: the fluid of Fukumoto, Ohtsuka & Murakami's PS-MRT lattice Boltzmann method
+//! The oracle of psmrt: the fluid and the grains of Fukumoto, Ohtsuka & Murakami's PS-MRT lattice Boltzmann method
 //! in plain double precision, one equation in one place.
 //!
 //! | equation of the paper | what it says | file |
@@ -14,6 +14,8 @@
 //! | Eq. 5, `B` | the solid's collision and its weight, force on the solid | [`partial_saturation`] |
 //! | `epsilon` | solid fraction of a sphere in a cell | [`coverage`] |
 //! | | order of operations in a step | [`solver`] |
+//! | section 4, contact | Voigt, Coulomb, motion, packing (DEM) | [`grains`] |
+//! | section 4, fluid on grains | free grains in the fluid | [`coupling`] |
 //!
 //! Symbols: `reference/NOTATION.md`. Departures from the printed equations, each with the test that
 //! shows why: `reference/ERRATA.md`. Everything is in lattice units: grid spacing, time step and the
@@ -24,6 +26,7 @@
 pub mod boundary;
 pub mod cell_collision;
 pub mod collision;
+pub mod coupling;
 pub mod coverage;
 pub mod directions;
 pub mod domain;

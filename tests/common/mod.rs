@@ -26,15 +26,20 @@ impl Budget {
         Budget { allowed: u64::MAX, used: 0 }
     }
 
-    /// Makes `steps` steps.
-    pub fn run(&mut self, solver: &mut Solver, steps: u64) {
-        self.used += steps * solver.domain().cell_count() as u64;
+    /// Counts cell updates that the caller is about to make.
+    pub fn spend(&mut self, cell_updates: u64) {
+        self.used += cell_updates;
         assert!(
             self.used <= self.allowed,
             "needs {} cell updates, declared {}: raise the declaration or shorten the test",
             self.used,
             self.allowed
         );
+    }
+
+    /// Makes `steps` steps.
+    pub fn run(&mut self, solver: &mut Solver, steps: u64) {
+        self.spend(steps * solver.domain().cell_count() as u64);
         solver.run(steps).unwrap_or_else(|stopped| panic!("{stopped}"));
     }
 

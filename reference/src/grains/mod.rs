@@ -1,1 +1,33 @@
-//! Grains: contact, neighbours, motion (being written).
+//! Grains: spheres that touch, roll, settle and are carried (discrete element method, DEM).
+//!
+//! | equation | what it says | file |
+//! |---|---|---|
+//! | `F = k δ + γ dδ/dt`, Coulomb | contact laws, and their conversion from duration and restitution | [`law`] |
+//! | | the force of one contact, its springs carried along as it turns | [`contact`] |
+//! | `6π μ a X(gap) U` | lubrication correction | [`lubrication`] |
+//! | | walls and other planes | [`plane`] |
+//! | | contact and lubrication together | [`interaction`] |
+//! | | candidate pairs from a cell list | [`neighbours`] |
+//! | | their forces, computed and gathered in one order whatever the threads | [`pairs`] |
+//! | `m dv/dt = F` | velocity Verlet, the length of a sub-step | [`motion`] |
+//! | | the box, what a set of grains is set up with, and the checks | [`setup`] |
+//! | | order of operations in a sub-step, checkpoints | [`system`] |
+//! | | beds to start from | [`packing`] |
+//!
+//! Units: any consistent ones (SI, or the lattice units of the fluid): nothing here has a scale of
+//! its own. Units are given as `length`, `time`, `mass` and what is made of them. Angles are radians.
+
+pub mod contact;
+pub mod grain;
+pub mod interaction;
+pub mod law;
+pub mod lubrication;
+pub mod motion;
+pub mod neighbours;
+pub mod packing;
+pub mod pairs;
+mod parallel;
+pub mod plane;
+pub mod random;
+pub mod setup;
+pub mod system;
