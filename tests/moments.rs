@@ -2,6 +2,7 @@
 
 mod common;
 
+use approx::assert_abs_diff_eq;
 use common::random::{Random, largest_difference};
 use faer::linalg::matmul::matmul;
 use psmrt_reference::directions::{C, OPPOSITE, Q};
@@ -241,8 +242,8 @@ fn density_and_momentum_of_an_equilibrium_are_those_it_was_made_of() {
         let (rho, u) = (random.between(0.8, 1.2), random.vector(0.3));
         let f = equilibrium(rho, &u);
         // Sums of 19 terms below 1.2: a few eps.
-        assert!((density(&f) - rho).abs() < 4e-15);
-        assert!((momentum(&f) - rho * u).norm() < 4e-15);
+        assert_abs_diff_eq!(density(&f), rho, epsilon = 4e-15);
+        assert_abs_diff_eq!(momentum(&f), rho * u, epsilon = 4e-15);
     }
     let still = equilibrium(1.0, &psmrt_reference::lattice::Vec3::zeros());
     assert!(largest_difference(&still, &W) == 0.0);
