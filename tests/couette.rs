@@ -3,28 +3,16 @@
 mod common;
 
 use common::Budget;
+use common::collisions::{dhumieres, magic, srt};
 use psmrt_reference::boundary::bounce_back;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::{C, OPPOSITE, Q};
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::equilibrium::equilibrium;
 use psmrt_reference::lattice::{CS2, Vec3, W, c, viscosity};
-use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solver::Solver;
 use std::f64::consts::PI;
-
-fn srt(tau: f64) -> Collision {
-    Collision::Srt { tau }
-}
-
-fn dhumieres(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::dhumieres(tau).unwrap() }
-}
-
-fn magic(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::magic(tau, 3.0 / 16.0).unwrap() }
-}
 
 fn unit(axis: usize) -> Vec3 {
     Vec3::from_fn(|i, _| if i == axis { 1.0 } else { 0.0 })
@@ -94,7 +82,7 @@ fn couette_flow_is_exact_at_any_density_along_any_axis() {
     let mut worst = 0.0_f64;
     for (across, along) in [(0, 1), (0, 2), (1, 0), (1, 2), (2, 0), (2, 1)] {
         for (side, rho) in [(0, 1.0), (1, 1.0), (0, 1.1), (1, 1.1)] {
-            for collision in [srt(0.6), srt(1.5), magic(0.6), magic(1.5)] {
+            for collision in [srt(0.6), srt(1.5), magic(0.6, 3.0 / 16.0), magic(1.5, 3.0 / 16.0)] {
                 let flow = Couette { across, along, side, ..Couette::new(0.1, rho, collision) };
                 let error = flow.error(&mut budget);
                 worst = worst.max(error);
@@ -146,7 +134,7 @@ fn wall_term_takes_the_density_of_the_cell_a_constant_one_would_slow_the_wall_do
 fn plug_flow_between_free_slip_walls_stays_plug_flow() {
     let mut budget = Budget::oracle(110_000);
     for along in 0..3 {
-        for collision in [srt(0.6), dhumieres(0.6), magic(0.6)] {
+        for collision in [srt(0.6), dhumieres(0.6), magic(0.6, 3.0 / 16.0)] {
             let faces =
                 faces(|axis| [if axis == along { Face::Periodic } else { Face::FreeSlip }; 2]);
             let setup = Setup::fluid(Domain::new([3, 4, 5], faces).unwrap(), collision);

@@ -3,24 +3,20 @@
 mod common;
 
 use common::Budget;
+use common::collisions::dhumieres;
 use common::random::Random;
-use psmrt_reference::collision::Collision;
 use psmrt_reference::coupling::{CoupledSolver, CouplingSettings, Gravity, InternalFluid};
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::law::ContactLaw;
 use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
 use psmrt_reference::lattice::{Vec3, viscosity};
-use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use std::f64::consts::PI;
 
-fn mrt(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::dhumieres(tau).unwrap() }
-}
-
 fn fluid(cells: [usize; 3], faces: Faces, tau: f64) -> Setup {
-    Setup::fluid(Domain::new(cells, faces).unwrap(), mrt(tau)).with_solids(SolidPhase::default())
+    Setup::fluid(Domain::new(cells, faces).unwrap(), dhumieres(tau))
+        .with_solids(SolidPhase::default())
 }
 
 fn law() -> ContactLaw {
@@ -287,7 +283,7 @@ fn buoyancy_by_body_force(d: u16, tau: f64, budget: &mut Budget) -> f64 {
     let [width, height] = [3 * d / 2, 3 * d].map(usize::from);
     let faces = Faces { x: side, y: side, z: [Face::wall(); 2] };
     let domain = Domain::new([width, width, height], faces).unwrap();
-    let setup = Setup::fluid(domain, mrt(tau)).with_solids(SolidPhase::default());
+    let setup = Setup::fluid(domain, dhumieres(tau)).with_solids(SolidPhase::default());
     let mut grain = Grain::sphere(Vec3::new(0.0, 0.0, 1.5 * f64::from(d)), 0.5 * f64::from(d), 1.0);
     grain.held = true;
     let gravity = Some(Gravity::OnFluidToo { acceleration: g });

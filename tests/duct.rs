@@ -5,11 +5,11 @@
 
 mod common;
 
+use common::collisions::{dhumieres, magic, srt};
 use common::{Budget, golden_rows, observed_order};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::{Vec3, viscosity};
-use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solver::Solver;
 use std::f64::consts::PI;
@@ -65,18 +65,6 @@ fn duct(budget: &mut Budget, collision: Collision, n: usize, aspect: usize) -> (
     let squares = solver.velocity_field().into_iter().zip(&reference);
     let squares: f64 = squares.map(|(u, exact)| (u.x / unit - exact).powi(2)).sum();
     ((squares / reference.len() as f64).sqrt() / exact(0.0, 0.0, half_long), mean)
-}
-
-fn srt(tau: f64) -> Collision {
-    Collision::Srt { tau }
-}
-
-fn dhumieres(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::dhumieres(tau).unwrap() }
-}
-
-fn magic(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::magic(tau, 3.0 / 16.0).unwrap() }
 }
 
 /// The numbers of a golden table.
@@ -143,7 +131,7 @@ fn assert_second_order(
 #[test]
 fn square_duct_converges_to_the_series_with_second_order() {
     let mut budget = Budget::oracle(10_500_000);
-    for collision in [srt(0.8), dhumieres(0.8), magic(1.4)] {
+    for collision in [srt(0.8), dhumieres(0.8), magic(1.4, 3.0 / 16.0)] {
         assert_second_order(&mut budget, collision, 1, [3, 6, 12, 20]);
     }
 }

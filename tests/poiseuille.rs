@@ -6,6 +6,7 @@
 
 mod common;
 
+use common::collisions::{dhumieres, magic, srt};
 use common::{Budget, golden_rows, observed_order};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::C;
@@ -78,18 +79,6 @@ impl Channel {
         });
         solver
     }
-}
-
-fn srt(tau: f64) -> Collision {
-    Collision::Srt { tau }
-}
-
-fn dhumieres(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::dhumieres(tau).unwrap() }
-}
-
-fn magic(tau: f64, magic: f64) -> Collision {
-    Collision::Mrt { rates: Rates::magic(tau, magic).unwrap() }
 }
 
 #[test]

@@ -17,10 +17,10 @@
 mod common;
 
 use common::arrays::{Array, Flow, Lattice, Part};
+use common::collisions::{dhumieres, magic, srt};
 use common::{Budget, golden_rows, observed_order};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
-use psmrt_reference::rates::Rates;
 
 /// Steady enough: the flux is within 1e-5 of its end, and errors are claimed to 1e-3 at most.
 const STEADY: f64 = 2e-5;
@@ -38,18 +38,6 @@ const BCC: Case = Case { lattice: Lattice::Bcc, solid_fraction: "0.0850218452" }
 const FCC: Case = Case { lattice: Lattice::Fcc, solid_fraction: "0.09256006121" };
 /// As dense as a bed of sand.
 const DENSE: Case = Case { lattice: Lattice::Fcc, solid_fraction: "0.6" };
-
-fn srt(tau: f64) -> Collision {
-    Collision::Srt { tau }
-}
-
-fn dhumieres(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::dhumieres(tau).unwrap() }
-}
-
-fn magic(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::magic(tau, 3.0 / 16.0).unwrap() }
-}
 
 impl Case {
     /// `K` of the table.
@@ -221,7 +209,7 @@ fn dhumieres_rates_with_bounce_back_err_least_from_tau_0_6_up_in_dilute_and_dens
             let best = error(dhumieres(tau), bounce_back, &mut budget);
             let others = [
                 ("SRT", srt(tau), bounce_back),
-                ("TRT", magic(tau), bounce_back),
+                ("TRT", magic(tau, 3.0 / 16.0), bounce_back),
                 ("MRT, superposition", dhumieres(tau), SolidOperator::Superposition),
             ];
             for (name, collision, operator) in others {

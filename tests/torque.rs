@@ -14,11 +14,11 @@
 
 mod common;
 
+use common::collisions::dhumieres;
 use common::{Budget, observed_order};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::{Vec3, viscosity};
-use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::Solver;
@@ -28,10 +28,6 @@ use std::f64::consts::PI;
 /// lag is nearly all that is wrong; at 0.8 walls 0.026 cells inside the fluid, an error of first order
 /// and of the other sign, would make the order look like 2.6.
 const TAU: f64 = 1.0;
-
-fn mrt(tau: f64) -> Collision {
-    Collision::Mrt { rates: Rates::dhumieres(tau).unwrap() }
-}
 
 /// A box with one sphere that spins in place; all defaults.
 fn spinning(
@@ -59,7 +55,7 @@ fn torque_in_a_simple_cubic_array_converges_to_theory_and_opposes_the_spin() {
         // Surface speed for a Reynolds number ω a²/ν of 0.01: inertia enters as its square.
         let omega = 0.01 * nu / (a * a);
         let spin = Vec3::new(0.0, 0.0, omega);
-        let setup = spinning([side, side, side / 2], faces, (centre, a), spin, mrt(TAU));
+        let setup = spinning([side, side, side / 2], faces, (centre, a), spin, dhumieres(TAU));
         let mut solver = Solver::new(setup).unwrap();
         // The slowest mode falls by e in (L/2π)²/ν steps. Three such windows below 1e-4 leave 1e-5.
         let window = (side as f64 / (2.0 * PI)).powi(2) / nu;
@@ -89,7 +85,7 @@ fn torque_in_a_simple_cubic_array_converges_to_theory_and_opposes_the_spin() {
 fn torque_is_the_same_about_each_axis_and_comes_with_no_force() {
     let mut budget = Budget::oracle(2_700_000);
     let (side, a, omega) = (12, 3.0, 1e-4);
-    for collision in [Collision::Srt { tau: TAU }, mrt(TAU)] {
+    for collision in [Collision::Srt { tau: TAU }, dhumieres(TAU)] {
         let [x, y, z] = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| {
             let (centre, spin) = (Vec3::repeat(6.0), omega * axis);
             let setup = spinning([side; 3], Faces::PERIODIC, (centre, a), spin, collision);
@@ -117,7 +113,7 @@ fn sphere_across_periodic_faces_feels_what_it_feels_in_the_middle_of_the_box() {
     let (radius, spin) = (3.2, Vec3::new(1e-3, -2e-3, 3e-3));
     let loads = |moved: [f64; 3], budget: &mut Budget| {
         let centre = Vec3::new(5.3, 6.1, 7.4) + Vec3::from(moved);
-        let setup = spinning(cells, Faces::PERIODIC, (centre, radius), spin, mrt(TAU));
+        let setup = spinning(cells, Faces::PERIODIC, (centre, radius), spin, dhumieres(TAU));
         let setup = setup.with_body_force(Vec3::new(1e-5, 2e-5, -1e-5));
         let mut solver = Solver::new(setup).unwrap();
         budget.run(&mut solver, 100);

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test file is a crate of its own and uses a part of this")]
 
 pub mod arrays;
+pub mod collisions;
 pub mod random;
 pub mod sphere_quadrature;
 
