@@ -68,8 +68,6 @@ fn elastic_impacts_that_stick_return_the_surface_velocity_of_the_closed_form() {
             assert!((found - exact).abs() < 3e-3, "{ratio}: {found}, {exact}");
         }
     }
-    let equal = &golden_rows("dem/exact_constants.csv")[6];
-    assert_eq!((&equal[0], &equal[1]), ("kt_over_kn_equal_half_periods", "0.2857142857"));
 }
 
 /// Chung & Ooi's test 4: the row of `material`.
@@ -235,4 +233,28 @@ fn springs_turn_with_a_pair_that_turns_as_a_rigid_body() {
     // The turn is made of a turn of the normal and a twist, which commute to second order.
     assert!(observed_order(&points) > 1.9, "{points:?}");
     assert!(points[2].1 < 2e-4, "{points:?}");
+}
+
+#[test]
+fn a_contact_that_began_within_the_sub_step_counts_from_its_beginning() {
+    // Approach at 2, overlap 0.1: touched 0.05 before the end of a sub-step of 0.2, a quarter of it.
+    let geometry = Geometry::of_spheres(&Vec3::new(0.0, 0.0, 1.9), [1.0, 1.0]);
+    let motion = |velocity: Vec3| Motion { velocity, spin: Vec3::zeros() };
+    let velocity = Vec3::new(0.6, 0.0, 2.0);
+    let relative = Relative::new(&geometry, [&motion(velocity), &motion(Vec3::zeros())]);
+    let (law, dt) = (rough(1e3), 0.2);
+    let mut memory = None;
+    let force = contact_force(&law, &geometry, [&relative; 2], dt, &mut memory).unwrap().force;
+    // The spring is drawn for 0.05. The dashpots act for 0.05 and the half sub-step to come.
+    let (spring, dashpot) = (0.6 * 0.05, 0.25 + 0.5);
+    assert!((memory.unwrap().spring - Vec3::new(spring, 0.0, 0.0)).norm() < 1e-15);
+    let expected = Vec3::new(0.3 * spring + 0.2 * dashpot * 0.6, 0.0, 0.1 + 0.1 * dashpot * 2.0);
+    assert!((force + expected).norm() < 1e-15, "{force}");
+    // Touching from the start: all of the sub-step counts.
+    let mut memory = None;
+    contact_force(&law, &geometry, [&relative; 2], 0.0, &mut memory);
+    let force = contact_force(&law, &geometry, [&relative; 2], dt, &mut memory).unwrap().force;
+    assert!((memory.unwrap().spring - Vec3::new(0.12, 0.0, 0.0)).norm() < 1e-15);
+    let expected = Vec3::new(0.3 * 0.12 + 0.2 * 0.6, 0.0, 0.1 + 0.1 * 2.0);
+    assert!((force + expected).norm() < 1e-15, "{force}");
 }

@@ -4,6 +4,7 @@
 mod common;
 
 use common::golden_rows;
+use psmrt_reference::grains::contact::{Geometry, Motion, Relative, contact_force};
 use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::law::ContactLaw;
 use psmrt_reference::grains::plane::Plane;
@@ -194,4 +195,31 @@ fn a_piston_throws_a_sphere_forward_at_its_own_speed_and_the_rebound_s() {
         // v = (1 + e) V; e to the error of 25 sub-steps per contact (grains_motion.rs).
         assert!((speed - 0.5 * (1.0 + e)).abs() < 0.5 * 2.7e-3, "{e}: {speed}");
     }
+}
+
+#[test]
+fn rolling_resistance_of_a_pair_is_limited_by_its_reduced_radius_and_twisting_is_free() {
+    // Radii 1 and 3, pressed together by 0.1: R_r = 3/4, and couples are opposite.
+    let geometry = Geometry::of_spheres(&Vec3::new(0.0, 0.0, 3.9), [1.0, 3.0]);
+    let pair = ContactLaw::new(2.0, 0.0).unwrap().with_rolling(0.2).unwrap();
+    let motion = |spin: Vec3| Motion { velocity: Vec3::zeros(), spin };
+    let exert = |spin: Vec3| {
+        let relative = Relative::new(&geometry, [&motion(spin), &motion(Vec3::zeros())]);
+        let mut memory = None;
+        let forces = contact_force(&pair, &geometry, [&relative; 2], 10.0, &mut memory).unwrap();
+        (forces.torques, memory.unwrap().rolling)
+    };
+    let (torques, spring) = exert(Vec3::new(5.0, 0.0, 0.0));
+    // μ_r R_r k δ against the spin; couple per radian (2/5) k R_r²
+    assert!((torques[0] + Vec3::new(0.2 * 0.75 * 0.2, 0.0, 0.0)).norm() < 1e-15, "{torques:?}");
+    assert_eq!(torques[0], -torques[1]);
+    assert!((0.4 * 2.0 * 0.75 * 0.75 * spring.x - 0.2 * 0.75 * 0.2).abs() < 1e-15, "{spring}");
+    let (torques, spring) = exert(Vec3::new(0.0, 0.0, 5.0));
+    assert_eq!((torques, spring), ([Vec3::zeros(); 2], Vec3::zeros()));
+
+    // A sphere that spins like a top on the floor goes on spinning.
+    let mut system = on_slope(0.0, law(0.5).with_rolling(0.3).unwrap(), Vec3::zeros());
+    system.edit(|grains, _| grains[0].spin = Vec3::z()).unwrap();
+    system.step(1.0, &[]).unwrap();
+    assert_eq!(sphere(&system).spin, Vec3::z());
 }
