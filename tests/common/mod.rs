@@ -22,11 +22,6 @@ impl Budget {
         Budget { allowed: cell_updates, used: 0 }
     }
 
-    /// For `#[ignore]`d tests: no limit, and not counted.
-    pub fn paper_scale() -> Self {
-        Budget { allowed: u64::MAX, used: 0 }
-    }
-
     /// Counts cell updates that the caller is about to make.
     pub fn spend(&mut self, cell_updates: u64) {
         self.used += cell_updates;
