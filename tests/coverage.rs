@@ -1,4 +1,4 @@
-//! Solid fraction of a sphere in a cell: exact, and sampled.
+//! Exact solid fraction of a sphere in a cell.
 //!
 //! Expected values come from closed forms or from `common/sphere_quadrature.rs`, which takes
 //! another route (cross-sections, integrated along z) than the code under test (cones).
@@ -6,10 +6,11 @@
 
 mod common;
 
+use common::cuts::{anywhere, assert_close, cut, images};
 use common::random::Random;
 use common::sphere_quadrature::{STEP, fraction_by_quadrature, quadrature_with_step};
 use proptest::prelude::*;
-use psmrt_reference::coverage::{exact_fraction, sampled_fraction};
+use psmrt_reference::coverage::exact_fraction;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
 
@@ -339,116 +340,4 @@ fn a_radius_or_position_that_is_no_number_does_not_panic() {
     }
     assert!(exact_fraction(&Vec3::new(0.0, f64::NAN, 0.0), 1.0).is_nan());
     assert_eq!(exact_fraction(&Vec3::zeros(), 0.0), 0.0);
-}
-
-// --- Sampling ----------------------------------------------------------------------------------
-
-#[test]
-fn sampled_fraction_counts_the_midpoints_of_sub_cells() {
-    // n = 1: the cell's centre. n = 2: eight points at (±1/4, ±1/4, ±1/4).
-    assert_eq!(sampled_fraction(&Vec3::new(0.3, 0.0, 0.4), 0.51, 1), 1.0);
-    assert_eq!(sampled_fraction(&Vec3::new(0.3, 0.0, 0.4), 0.49, 1), 0.0);
-    assert_eq!(sampled_fraction(&Vec3::new(0.0, 0.0, 1.25), 1.1, 2), 0.5);
-    assert_eq!(sampled_fraction(&Vec3::new(0.5, 0.5, 0.5), 0.44, 2), 0.125);
-    // n = 3: of 27 points at 0, ±1/3 the middle one and the six next to it.
-    assert_eq!(sampled_fraction(&Vec3::zeros(), 0.4, 3), 7.0 / 27.0);
-}
-
-#[test]
-fn sampling_keeps_the_48_symmetries_of_the_cube_to_the_last_bit() {
-    let mut random = Random(6);
-    // Besides random cuts, spheres through the cell's centre, a sample point: rounding decides.
-    let mut cuts: Vec<_> = (0..200).map(|_| cut(&mut random)).collect();
-    cuts.extend([(Vec3::new(0.1, 0.2, 0.2), 0.3), (Vec3::new(0.6, 0.9, 1.8), 2.1)]);
-    for (centre, radius) in cuts {
-        for n in [1, 2, 3, 5, 10] {
-            let fraction = sampled_fraction(&centre, radius, n);
-            for image in images(&centre) {
-                assert_eq!(sampled_fraction(&image, radius, n), fraction, "{image:?} {radius} {n}");
-            }
-        }
-    }
-}
-
-#[test]
-fn the_error_of_sampling_falls_with_the_square_of_n() {
-    let mut random = Random(7);
-    for radius in [2.0, 8.0, 20.0] {
-        let cuts: Vec<_> = (0..4000).map(|_| cut_of_radius(&mut random, radius)).collect();
-        for n in 2..=10 {
-            let error = |c: &Vec3| sampled_fraction(c, radius, n) - exact_fraction(c, radius);
-            let mean_square =
-                cuts.iter().map(|c| error(c).powi(2)).sum::<f64>() / cuts.len() as f64;
-            let constant = mean_square.sqrt() * (n * n) as f64;
-            // Why: the surface cuts about n² of the n³ sub-cells. Each is taken for full or empty,
-            // wrongly by some fraction of its volume 1/n³, up or down: sqrt(n²)/n³ = 1/n². The
-            // constant is measured, 0.21 to 0.24; orders 1.9 and 2.1 would carry it from 0.22 at
-            // n = 2 to 0.26 and 0.19 at n = 10.
-            assert!((0.20..0.25).contains(&constant), "radius {radius}, n {n}: {constant} / n²");
-        }
-    }
-}
-
-#[test]
-fn sampling_with_many_points_approaches_the_exact_fraction() {
-    let mut random = Random(8);
-    for _ in 0..100 {
-        let (centre, radius) = cut(&mut random);
-        let (n, exact) = (50, exact_fraction(&centre, radius));
-        // Why: a line of points is in the sphere for one stretch, and counting points misplaces
-        // either end of it by half a spacing at most: 1/n if all lines err alike, as along a face.
-        assert_close(sampled_fraction(&centre, radius, n), exact, 1.0 / n as f64);
-    }
-}
-
-// --- Tools -------------------------------------------------------------------------------------
-
-#[track_caller]
-fn assert_close(value: f64, expected: f64, tolerance: f64) {
-    let error = (value - expected).abs();
-    assert!(error <= tolerance, "{value:e} is not {expected:e}: off by {error:e} > {tolerance:e}");
-}
-
-/// The 48 images of a position under the symmetries of the cube.
-fn images(v: &Vec3) -> Vec<Vec3> {
-    let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
-    let signs = [1.0, -1.0];
-    let mut images = Vec::with_capacity(48);
-    for [i, j, k] in orders {
-        for x in signs {
-            for y in signs {
-                for z in signs {
-                    images.push(Vec3::new(x * v[i], y * v[j], z * v[k]));
-                }
-            }
-        }
-    }
-    images
-}
-
-/// Uniform in the cube -1..1.
-fn anywhere(random: &mut Random) -> Vec3 {
-    random.vector(1.0)
-}
-
-/// A sphere whose surface cuts the cell: its centre, and a radius from 0.05 to 50.
-fn cut(random: &mut Random) -> (Vec3, f64) {
-    let radius = 0.05 * 1000.0_f64.powf(random.between(0.0, 1.0));
-    (cut_of_radius(random, radius), radius)
-}
-
-/// Centre of a sphere of `radius` whose surface cuts the cell.
-fn cut_of_radius(random: &mut Random, radius: f64) -> Vec3 {
-    loop {
-        let inward = anywhere(random);
-        if !(0.01..1.0).contains(&inward.norm()) {
-            continue; // a direction without preference for the cube's corners
-        }
-        let centre = inward.normalize() * (radius + random.between(-1.0, 1.0));
-        let corners = images(&Vec3::repeat(0.5)).into_iter().map(|corner| (corner - centre).norm());
-        let nearest = centre.map(|c| (c.abs() - 0.5).max(0.0)).norm();
-        if nearest < radius && corners.fold(0.0, f64::max) > radius {
-            return centre;
-        }
-    }
 }

@@ -4,6 +4,7 @@
 
 pub mod arrays;
 pub mod collisions;
+pub mod cuts;
 pub mod random;
 pub mod sphere_quadrature;
 
