@@ -6,7 +6,9 @@ pub mod arrays;
 pub mod collisions;
 pub mod cuts;
 pub mod random;
+pub mod settling;
 pub mod sphere_quadrature;
+pub mod suspension;
 
 use psmrt_reference::solver::Solver;
 
