@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 use std::time::Instant;
 
-use psmrt_reference::guard::Stopped;
+use psmrt_reference::coupling::CoupledStop;
 use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
@@ -15,9 +15,9 @@ use crate::scene::{Interval, Rhythm, Scene, Steady};
 /// A run that could not go on.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// The guard has stopped it.
+    /// The guard has stopped it, or a free grain cannot be moved.
     #[error(transparent)]
-    Guard(#[from] Stopped),
+    Stopped(#[from] CoupledStop),
     /// Its results cannot be written.
     #[error("results cannot be written: {0}; what was written before is whole")]
     Write(#[from] io::Error),

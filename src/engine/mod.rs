@@ -2,11 +2,13 @@
 //! is assumed to keep its fields where the caller could look at them.
 
 mod bytes;
+pub mod free_state;
 mod reference;
 
 use std::io::{self, Read, Write};
 
-use psmrt_reference::guard::Stopped;
+use psmrt_reference::coupling::CoupledStop;
+use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Load, Solid};
 
@@ -42,8 +44,9 @@ pub trait Engine {
     /// Steps made so far.
     fn steps(&self) -> u64;
 
-    /// Makes `count` steps. Errors when the guard finds the state broken.
-    fn step(&mut self, count: u64) -> Result<(), Stopped>;
+    /// Makes `count` steps. Errors when the guard finds the state broken or a free grain cannot be
+    /// moved.
+    fn step(&mut self, count: u64) -> Result<(), CoupledStop>;
 
     /// Means over the box.
     fn box_means(&self) -> BoxMeans;
@@ -54,7 +57,10 @@ pub trait Engine {
     /// The solids, where they are now.
     fn solids(&self) -> Vec<Solid>;
 
-    /// Force and torque on each solid during the last step.
+    /// All grains with their contacts, if some are free; grain number `i` is solid number `i`.
+    fn free_grains(&self) -> Option<&GrainSystem>;
+
+    /// Force and torque of the fluid on each solid during the last step.
     fn loads(&self) -> Vec<Load>;
 
     /// Writes all that it needs to go on from here, bit for bit.

@@ -3,6 +3,7 @@
 pub mod atomic;
 pub mod csv;
 pub mod folder;
+pub mod grain_list;
 pub mod npy;
 pub mod plot;
 pub mod records;
