@@ -103,9 +103,99 @@ fn fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates() {
     }
 }
 
+const WEIGHTINGS: [Weighting; 2] = [Weighting::SolidFraction, Weighting::NobleTorczynski];
+const OPERATORS: [SolidOperator; 2] =
+    [SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition];
+
+/// Solids with given fractions of all cells, of which each has up to three; some are full, some bare.
+fn given_fractions(random: &mut Random, moving: bool) -> Vec<Solid> {
+    (0..3)
+        .map(|_| {
+            let mut fractions = Vec::new();
+            for cell in 0..CELLS.iter().product() {
+                match random.between(0.0, 3.0) {
+                    x if x < 0.3 => fractions.push((cell, 1.0)),
+                    x if x < 2.0 => fractions.push((cell, random.between(0.0, 1.0))),
+                    _ => {}
+                }
+            }
+            let velocity = if moving { random.vector(0.05) } else { Vec3::zeros() };
+            let spin = if moving { random.vector(0.01) } else { Vec3::zeros() };
+            Solid { velocity, spin, ..Solid::fixed_cells(fractions) }
+        })
+        .collect()
+}
+
+fn solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions() {
+    let mut budget = Budget::kernel(100_000);
+    let mut random = Random(2);
+    for (name, collision) in collisions() {
+        for (weighting, operator) in WEIGHTINGS.into_iter().flat_map(|w| OPERATORS.map(|o| (w, o)))
+        {
+            for (moving, force) in [(false, None), (true, Some(G)), (true, None)] {
+                let solids = given_fractions(&mut random, moving);
+                let phase = SolidPhase { solids, weighting, operator, ..SolidPhase::default() };
+                let domain = Domain::new(CELLS, Faces::PERIODIC).unwrap();
+                let mut setup = Setup::fluid(domain, collision).with_solids(phase);
+                setup.body_force = force;
+                let start = random_state(&mut random, 120);
+                let error = error_of_one_step(&mut budget, &setup, &start);
+                println!("{name}, {weighting:?}, {operator:?}, moving {moving}: {error:.2}");
+                assert!(error < BOUND, "{name}, {weighting:?}, {operator:?}: {error}");
+            }
+        }
+    }
+}
+
+/// Boxes in which every kind of face meets every other at an edge.
+fn mixed_faces() -> Vec<Faces> {
+    let lid = Face::Wall { velocity: Vec3::new(0.03, -0.02, 0.0) };
+    let side = Face::Wall { velocity: Vec3::new(0.0, 0.02, -0.01) };
+    let inlet = Face::VelocityInlet { velocity: Vec3::new(0.04, 0.01, -0.01) };
+    let [low, high] = [0.98, 1.01].map(|density| Face::Pressure { density });
+    let (slip, out, wall) = (Face::FreeSlip, Face::FreeOutflow, Face::wall());
+    let periodic = [Face::Periodic; 2];
+    vec![
+        Faces { x: [wall; 2], y: [wall; 2], z: [wall, lid] },
+        Faces { x: [inlet, out], y: periodic, z: [wall, lid] },
+        Faces { x: [inlet, high], y: [slip; 2], z: [slip, wall] },
+        Faces { x: [inlet, high], y: [slip, out], z: [low, lid] },
+        Faces { x: [side, slip], y: [low, high], z: periodic },
+        Faces { x: [low, out], y: [high, slip], z: [out, low] },
+        Faces { x: [slip, out], y: [out, slip], z: [inlet, out] },
+        Faces { x: periodic, y: [slip, low], z: [high, slip] },
+    ]
+}
+
+fn every_face_and_edge_lets_in_what_the_oracles_does() {
+    let mut budget = Budget::kernel(100_000);
+    let mut random = Random(3);
+    for (case, faces) in mixed_faces().into_iter().enumerate() {
+        for cells in [CELLS, [1, 5, 4], [6, 1, 1], [1, 1, 1]] {
+            let domain = Domain::new(cells, faces).unwrap();
+            let setup = Setup::fluid(domain, dhumieres(0.7));
+            let start = random_state(&mut random, setup.domain.cell_count());
+            // Two steps: the first collides only, the faces come in at what is seen after it.
+            let error = error_of_one_step(&mut budget, &setup, &start);
+            println!("faces {case}, {cells:?}: {error:.2}");
+            assert!(error < BOUND, "faces {case}, {cells:?}: {error}");
+        }
+    }
+}
+
 fn main() -> ExitCode {
-    trials::run(&[(
-        "fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates",
-        fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates,
-    )])
+    trials::run(&[
+        (
+            "fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates",
+            fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates,
+        ),
+        (
+            "solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions",
+            solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions,
+        ),
+        (
+            "every_face_and_edge_lets_in_what_the_oracles_does",
+            every_face_and_edge_lets_in_what_the_oracles_does,
+        ),
+    ])
 }

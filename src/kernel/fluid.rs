@@ -1,7 +1,9 @@
 //! The fluid of one box on a device: steps, and what can be seen of it.
 
 use std::cell::{OnceCell, RefCell};
+use std::io;
 use std::sync::Arc;
+use std::time::Instant;
 
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
@@ -18,6 +20,7 @@ use super::numbers::single;
 use super::pipeline::{Pipeline, Slot};
 use super::solids::Solids;
 use super::streaming::weight;
+use super::watch::{KernelTimes, Watch};
 
 /// Cell updates of one submission, at most: a tenth of a second of a large device, which the systems
 /// that watch over screens allow, a few seconds of a processor.
@@ -53,6 +56,8 @@ pub struct Kernel {
     gather: OnceCell<Pipeline>,
     /// Populations and parts of sums on their way back.
     seen: RefCell<Growing>,
+    /// Where the time goes, if that is kept.
+    watch: Watch,
 }
 
 /// The uniform buffers that say which cells are worked on.
@@ -119,6 +124,7 @@ impl Kernel {
             impulses: OnceCell::new(),
             gather: OnceCell::new(),
             seen: RefCell::new(Growing::new(gpu, "what is read back")?),
+            watch: Watch::default(),
             gpu: Arc::clone(gpu),
             setup,
             layout,
@@ -140,6 +146,17 @@ impl Kernel {
     /// Bytes of memory on the device that the populations take.
     pub fn population_bytes(&self) -> u64 {
         self.layout.bytes_of_both()
+    }
+
+    /// Whether to keep the times of [`Self::times`], for which the device is waited for after each part
+    /// of a step.
+    pub fn keep_times(&mut self, keep: bool) {
+        self.watch.is_on = keep;
+    }
+
+    /// Where the time has gone, if that is kept.
+    pub fn times(&self) -> KernelTimes {
+        self.watch.times.get()
     }
 
     fn recipe(&self) -> Recipe<'_> {
@@ -201,7 +218,12 @@ impl Kernel {
         let tau = self.setup.collision.tau();
         if let (Some(phase), Some(on_device)) = (&mut self.setup.solid_phase, &mut self.solids) {
             phase.solids = solids;
-            on_device.update(&self.gpu, &self.setup.domain, phase, tau)?;
+            let start = Instant::now();
+            on_device.list(&self.setup.domain, phase);
+            self.watch.add(start, |times| &mut times.coverage);
+            let start = Instant::now();
+            on_device.upload(&self.gpu, phase, tau)?;
+            self.watch.add(start, |times| &mut times.transfers);
         }
         self.list_cells()
     }
@@ -231,19 +253,19 @@ impl Kernel {
         Ok(())
     }
 
-    /// Makes `steps` steps, the solids staying where they are, and works out the loads of the last.
-    /// Does not wait for the device.
-    pub fn advance(&mut self, steps: u64) -> Result<(), KernelError> {
+    /// Makes `steps` steps, the solids staying where they are; `with_loads`: and works out the loads of
+    /// the last. Does not wait for the device.
+    pub fn advance(&mut self, steps: u64, with_loads: bool) -> Result<(), KernelError> {
         let mut left = steps;
         if left > 0 && !self.is_collided {
-            self.first_step(left == 1)?;
             left -= 1;
+            self.first_step(with_loads && left == 0)?;
         }
         let per_submission = (SUBMISSION / u64::from(self.layout.count)).max(1);
         while left > 0 {
             let now = left.min(per_submission);
             left -= now;
-            self.submit_steps(now, left == 0)?;
+            self.submit_steps(now, with_loads && left == 0)?;
             if left > 0 {
                 self.gpu.wait()?;
             }
@@ -270,6 +292,7 @@ impl Kernel {
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
+        self.watch.wait(&self.gpu, |times| &mut times.fluid)?;
         if with_loads {
             self.submit_loads(self.current)?;
         }
@@ -315,6 +338,7 @@ impl Kernel {
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
+        self.watch.wait(&self.gpu, |times| &mut times.fluid)?;
         let swaps = usize::from(steps % 2 == 1);
         let last_from = if swaps == 1 { here } else { 1 - here };
         if with_loads {
@@ -356,13 +380,16 @@ impl Kernel {
             pass.dispatch_workgroups(groups.min(65_535), groups.div_ceil(65_535), 1);
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
-        })
+        })?;
+        self.watch.wait(&self.gpu, |times| &mut times.forces)
     }
 
     /// Force and torque on each solid during the last step.
     pub fn loads(&self) -> Result<Vec<Load>, KernelError> {
         let Some(solids) = &self.solids else { return Ok(Vec::new()) };
+        let start = Instant::now();
         let bytes = self.gpu.read(solids.loads.buffer(), 32 * u64::from(solids.solid_count))?;
+        self.watch.add(start, |times| &mut times.transfers);
         let rows: &[[f32; 4]] = bytemuck::cast_slice(&bytes);
         let vector = |row: &[f32; 4]| Vec3::new(row[0].into(), row[1].into(), row[2].into());
         Ok(rows
@@ -434,35 +461,37 @@ impl Kernel {
         self.solids.as_ref().map_or(0.0, |solids| solids.coverage.solid_fraction(cell))
     }
 
-    /// The populations as the device holds them, direction by direction, each one a row of the cells'
-    /// bits; and whether they are those after a collision.
-    pub fn state(
-        &self,
-        mut row: impl FnMut(&[u8]) -> std::io::Result<()>,
-    ) -> std::io::Result<bool> {
+    /// Whether the state on the device is that after a collision, as from the first step on.
+    pub fn is_collided(&self) -> bool {
+        self.is_collided
+    }
+
+    /// Hands out the populations as the device holds them: for each direction the bits of all cells.
+    pub fn save(&self, mut row: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         for a in 0..Q {
             let (binding, start) = self.layout.place(a);
             let bytes = u64::from(self.layout.count) * 4;
             let buffer = &self.copies[self.current][binding as usize];
             let read = self.gpu.read_from(buffer, u64::from(start) * 4, bytes);
-            row(&read.map_err(std::io::Error::other)?)?;
+            row(&read.map_err(io::Error::other)?)?;
         }
-        Ok(self.is_collided)
+        Ok(())
     }
 
-    /// Goes on from what [`Self::state`] gave and the loads of the last step.
-    pub fn set_state(
+    /// Goes on from what [`Self::save`] and [`Self::is_collided`] gave, and the loads of the last step.
+    pub fn load(
         &mut self,
         is_collided: bool,
         loads: &[Load],
-        mut row: impl FnMut(&mut [u8]) -> std::io::Result<()>,
-    ) -> std::io::Result<()> {
+        mut row: impl FnMut(&mut [u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
         let mut bytes = vec![0; self.layout.count as usize * 4];
         for a in 0..Q {
             row(&mut bytes)?;
             let (binding, start) = self.layout.place(a);
             let buffer = &self.copies[self.current][binding as usize];
             self.gpu.queue.write_buffer(buffer, 4 * u64::from(start), &bytes);
+            // Uploads wait in host memory until they are submitted.
             self.gpu.queue.submit([]);
         }
         self.is_collided = is_collided;
@@ -470,10 +499,10 @@ impl Kernel {
             let vector = |v: &Vec3| [single(v.x), single(v.y), single(v.z), 0.0];
             let rows: Vec<[f32; 4]> =
                 loads.iter().flat_map(|load| [vector(&load.force), vector(&load.torque)]).collect();
-            solids.loads.fill(&self.gpu, &rows).map_err(std::io::Error::other)?;
+            solids.loads.fill(&self.gpu, &rows).map_err(io::Error::other)?;
         }
-        self.list_cells().map_err(std::io::Error::other)?;
-        self.gpu.wait().map_err(std::io::Error::other)
+        self.list_cells().map_err(io::Error::other)?;
+        self.gpu.wait().map_err(io::Error::other)
     }
 
     /// Waits until all steps are made. Errors if the device failed.

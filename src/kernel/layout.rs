@@ -1,6 +1,5 @@
 //! Where the populations lie: all cells of one direction in a row, so many directions to a binding.
 
-use psmrt_reference::directions::Q;
 use psmrt_reference::domain::Domain;
 
 use super::device::AdapterFacts;
@@ -8,6 +7,9 @@ use super::error::KernelError;
 
 /// Bytes of one value.
 const WORD: u64 = 4;
+
+/// Number of directions.
+const DIRECTIONS: u32 = 19;
 
 /// Storage bindings of a shader besides the populations, at most.
 const OTHER_BINDINGS: u32 = 4;
@@ -37,7 +39,7 @@ impl Layout {
         let count = domain.cell_count() as u64;
         let stride = padded(count);
         let largest = adapter.max_binding_bytes.min(adapter.max_buffer_bytes);
-        let per_binding = (largest / (stride * WORD)).min(Q as u64);
+        let per_binding = (largest / (stride * WORD)).min(DIRECTIONS.into());
         let too_large = |what, needed, available| KernelError::TooLarge {
             what,
             needed,
@@ -69,13 +71,13 @@ impl Layout {
 
     /// Bindings that one copy of the populations takes.
     pub(super) fn bindings(&self) -> u32 {
-        (Q as u32).div_ceil(self.per_binding)
+        DIRECTIONS.div_ceil(self.per_binding)
     }
 
     /// Bytes of binding number `binding`.
     pub(super) fn bytes(&self, binding: u32) -> u64 {
         let before = binding * self.per_binding;
-        let directions = self.per_binding.min(Q as u32 - before);
+        let directions = self.per_binding.min(DIRECTIONS - before);
         u64::from(directions) * u64::from(self.stride) * WORD
     }
 
@@ -86,7 +88,7 @@ impl Layout {
 
     /// The binding of direction `a` and where it starts there, in values.
     pub(super) fn place(&self, a: usize) -> (u32, u32) {
-        let a = a as u32;
+        let a = u32::try_from(a).unwrap_or(DIRECTIONS);
         (a / self.per_binding, a % self.per_binding * self.stride)
     }
 }

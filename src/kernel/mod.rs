@@ -32,8 +32,10 @@ mod pipeline;
 mod solids;
 mod sphere;
 mod streaming;
+mod watch;
 
 pub use device::{AdapterFacts, Gpu, adapters};
 pub use error::KernelError;
 pub use fluid::{Kernel, Summary};
 pub use sphere::{sampled_fraction, solid_fraction};
+pub use watch::KernelTimes;

@@ -1,5 +1,6 @@
 //! The solids on the device.
 
+use psmrt_reference::domain::Domain;
 use psmrt_reference::setup::SolidPhase;
 
 use super::buffers::Growing;
@@ -7,7 +8,6 @@ use super::compose::SolidData;
 use super::coverage::Coverage;
 use super::device::Gpu;
 use super::error::KernelError;
-use psmrt_reference::domain::Domain;
 
 /// Above this share of covered cells the solid part is worked out in every cell; below it, only in the
 /// listed ones, a second time.
@@ -61,21 +61,25 @@ impl Solids {
             solid_count: 0,
             many: 0,
         };
-        solids.update(gpu, domain, phase, tau)?;
+        solids.list(domain, phase);
+        solids.upload(gpu, phase, tau)?;
         let covered = solids.coverage.cells().len() as f64 / domain.cell_count() as f64;
         solids.in_every_cell = covered > DENSE;
         Ok(solids)
     }
 
-    /// Uploads the solids where they are now.
-    pub(super) fn update(
+    /// Lists what the solids cover where they are now.
+    pub(super) fn list(&mut self, domain: &Domain, phase: &SolidPhase) {
+        self.coverage.update(domain, phase);
+    }
+
+    /// Uploads what was listed.
+    pub(super) fn upload(
         &mut self,
         gpu: &Gpu,
-        domain: &Domain,
         phase: &SolidPhase,
         tau: f64,
     ) -> Result<(), KernelError> {
-        self.coverage.update(domain, phase);
         let tables = self.coverage.tables(phase, tau);
         match self.data {
             SolidData::Moving => {

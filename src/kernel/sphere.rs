@@ -27,7 +27,7 @@ pub fn solid_fraction(centre: [f64; 3], radius: f64) -> f64 {
         // end or lies below the centre.
         let lower = 3 - corner.count_ones() as usize + at.iter().filter(|x| **x < 0.0).count();
         let part = corner_volume(at.map(f64::abs), radius);
-        volume += if lower % 2 == 0 { part } else { -part };
+        volume += if lower.is_multiple_of(2) { part } else { -part };
     }
     volume.clamp(0.0, 1.0)
 }

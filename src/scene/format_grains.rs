@@ -17,7 +17,8 @@ pub struct GrainsSection {
     /// With `sphere` and `array`: diameter, m.
     pub diameter: Option<f64>,
     /// With `csv`: the file, relative to the scene. Its first line is
-    /// `x (m),y (m),z (m),diameter (m)`; each further line is a grain.
+    /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own; each
+    /// further line is a grain.
     pub file: Option<String>,
     /// With `array`: `sc` (simple cubic), `bcc` (body-centred) or `fcc` (face-centred).
     pub lattice: Option<LatticeName>,
@@ -25,12 +26,15 @@ pub struct GrainsSection {
     pub counts: Option<[i64; 3]>,
     /// With `array`, instead of `diameter`: volume of the grains over that of the box, in (0, 1).
     pub solid_fraction: Option<f64>,
-    /// `fixed` (the default) or `prescribed` (moves as `velocity` and `spin` say).
+    /// `fixed` (the default), `prescribed` (moves as `velocity` and `spin` say) or `free` (moves as
+    /// fluid, neighbours and gravity push it).
     #[serde(default)]
     pub motion: Motion,
-    /// With `prescribed`: velocity, m/s.
+    /// With `free`: density of the grains, kg/m3; not where a `csv` file has a column for it.
+    pub density: Option<f64>,
+    /// With `prescribed`: velocity, m/s; with `free` that at the start.
     pub velocity: Option<Triple>,
-    /// With `prescribed`: angular velocity, rad/s.
+    /// With `prescribed`: angular velocity, rad/s; with `free` that at the start.
     pub spin: Option<Triple>,
 }
 
@@ -67,9 +71,7 @@ pub enum Motion {
     Fixed,
     /// It moves as told.
     Prescribed,
-    /// It moves as the fluid and its neighbours push it. Not built yet: an error says so, and the
-    /// schema does not have it.
-    #[schemars(skip)]
+    /// It moves as fluid, neighbours and gravity push it.
     Free,
 }
 

@@ -50,7 +50,7 @@ impl Budget {
     /// Makes `steps` steps on the device.
     pub fn advance(&mut self, kernel: &mut Kernel, steps: u64) {
         self.spend(steps * kernel.setup().domain.cell_count() as u64);
-        kernel.advance(steps).unwrap_or_else(|error| panic!("{error}"));
+        kernel.advance(steps, true).unwrap_or_else(|error| panic!("{error}"));
     }
 
     /// Runs until `observe` is steady and returns its value: until three windows of `window` steps
