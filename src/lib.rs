@@ -9,6 +9,7 @@
 //! | [`checkpoint`] | the state of a run in a file |
 //! | [`output`] | CSV, pictures, the folder of a run |
 //! | [`estimate`] | what a scene will be, cost and risk |
+//! | [`cases`] | the acceptance cases: measured, judged, drawn |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
@@ -16,6 +17,7 @@
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod cases;
 pub mod checkpoint;
 pub mod command;
 pub mod engine;
