@@ -1,12 +1,14 @@
 //! Fields and grains as files: what NumPy and VTK read is what was computed.
 
 mod cli;
+mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use cli::{Folder, psmrt, stderr};
+use common::Budget;
 
 const SCENE: &str = r#"
 [domain]
@@ -44,6 +46,7 @@ steps = 40
 "#;
 
 fn run(folder: &Folder) -> PathBuf {
+    Budget::oracle(4_800).spend(40 * 6 * 5 * 4);
     let scene = folder.write("scene.toml", SCENE);
     let out = folder.path("out");
     let output = psmrt(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()]);
