@@ -3,7 +3,8 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`scene`] | scene file (TOML, SI units) to checked scene in lattice units |
-//! | [`engine`] | what an engine can do; the oracle as one |
+//! | [`engine`] | what an engine can do; the oracle and the kernel as engines |
+//! | [`kernel`] | the production kernel: the fluid on any GPU |
 //! | [`run`] | the time loop |
 //! | [`checkpoint`] | the state of a run in a file |
 //! | [`output`] | CSV, pictures, the folder of a run |
@@ -20,6 +21,7 @@ pub mod command;
 pub mod engine;
 pub mod estimate;
 pub mod exact;
+pub mod kernel;
 pub mod machine;
 pub mod output;
 pub mod packing;

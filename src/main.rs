@@ -44,6 +44,8 @@ enum Command {
         /// Changes a value of the scene; can be given several times
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
     },
     /// Runs a scene
     #[command(after_help = "Ctrl-C saves the state; `psmrt resume` goes on from it.
@@ -60,6 +62,11 @@ Examples:
         /// Changes a value of the scene; can be given several times
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
+        /// Prints seconds per step of fluid, forces, grains, coverage and transfers (engine wgpu)
+        #[arg(long)]
+        profile: bool,
     },
     /// Goes on with a run from its newest checkpoint
     #[command(after_help = "Example:
@@ -96,6 +103,26 @@ Examples:
     },
 }
 
+/// What computes; the same as `--set engine.kind=...` and `--set engine.adapter=...`.
+#[derive(clap::Args)]
+struct EngineArguments {
+    /// What computes: `reference` in double precision on the CPU, `wgpu` in single precision on an
+    /// adapter, `auto` wgpu where there is a GPU in hardware [default: the scene's, else reference]
+    #[arg(long, value_parser = ["reference", "wgpu", "auto"])]
+    engine: Option<String>,
+    /// A part of the adapter's name, see `psmrt info`; alone it stands for `--engine wgpu` too
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+}
+
+impl EngineArguments {
+    /// The changes of the scene with these among them.
+    fn added_to(self, mut set: Vec<String>) -> Vec<String> {
+        set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref()));
+        set
+    }
+}
+
 fn main() -> ExitCode {
     let Arguments { command, json } = Arguments::parse();
     match dispatch(command, json) {
@@ -109,9 +136,13 @@ fn main() -> ExitCode {
 
 fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
     match command {
-        Command::Check { scene, set } => command::check::check(&CheckRequest { scene, set, json }),
-        Command::Run { scene, out, set } => {
-            command::run::run(&RunRequest { scene, set, out, json })
+        Command::Check { scene, set, engine } => {
+            let set = engine.added_to(set);
+            command::check::check(&CheckRequest { scene, set, json })
+        }
+        Command::Run { scene, out, set, engine, profile } => {
+            let set = engine.added_to(set);
+            command::run::run(&RunRequest { scene, set, out, profile, json })
         }
         Command::Resume { dir, checkpoint } => {
             command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })

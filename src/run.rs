@@ -4,11 +4,10 @@ use std::io;
 use std::path::Path;
 use std::time::Instant;
 
-use psmrt_reference::coupling::CoupledStop;
 use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
-use crate::engine::Engine;
+use crate::engine::{Engine, EngineStop};
 use crate::output::grain_means;
 use crate::output::records::{Recorder, box_row};
 use crate::scene::{Interval, Rhythm, Scene, Steady, What};
@@ -16,9 +15,9 @@ use crate::scene::{Interval, Rhythm, Scene, Steady, What};
 /// A run that could not go on.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// The guard has stopped it, or a free grain cannot be moved.
+    /// The guard has stopped it, a free grain cannot be moved, or the device has failed.
     #[error(transparent)]
-    Stopped(#[from] CoupledStop),
+    Stopped(#[from] EngineStop),
     /// Its results cannot be written.
     #[error("results cannot be written: {0}; what was written before is whole")]
     Write(#[from] io::Error),
@@ -80,9 +79,11 @@ pub fn run(
         }
         engine.step(run.next_event(now) - now)?;
         run.observe(engine)?;
+        engine.still_works()?;
     };
     if end != End::Interrupted {
         run.finish(engine)?;
+        engine.still_works()?;
     }
     Ok(end)
 }

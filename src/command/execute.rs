@@ -10,7 +10,7 @@ use psmrt_report::{Figure, write_svg};
 use serde_json::{Value, json};
 
 use super::progress::Progress as ProgressBar;
-use super::{CommandError, comparison, info, write};
+use super::{CommandError, comparison, info, profile, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
 use crate::output::{atomic, csv, grain_plots, plot};
@@ -52,7 +52,11 @@ pub(super) fn execute(
     draw_records(scene, folder)?;
     if json {
         let comparison = found.as_ref().map(comparison::to_json);
-        say(&json!({ "folder": folder, "run": facts, "comparison": comparison }).to_string());
+        let profile = engine.profile().map(|profile| profile::to_json(&profile));
+        let all = json!({
+            "folder": folder, "run": facts, "comparison": comparison, "profile": profile,
+        });
+        say(&all.to_string());
         return Ok(());
     }
     let steps = engine.steps();
@@ -65,6 +69,9 @@ pub(super) fn execute(
         steps as f64 * scene.units.si_dt,
         updates / seconds / 1e6
     ));
+    if let Some(profile) = engine.profile() {
+        say(&profile::to_text(&profile));
+    }
     if let (Some(found), Some(exact)) = (&found, &scene.exact) {
         say(&comparison::to_text(exact, found));
     }
@@ -131,6 +138,7 @@ fn write_facts(
         "state": state,
         "title": scene.title,
         "engine": engine.name(),
+        "adapter": engine.adapter(),
         "first_step": first_step,
         "steps": engine.steps(),
         "wall_seconds": start.elapsed().as_secs_f64(),

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::execute::say;
+use crate::kernel::{AdapterFacts, adapters};
 use crate::machine;
 
 /// The program: version, commit and whether the sources had been changed since, compiler's target.
@@ -28,9 +29,17 @@ pub(super) fn machine() -> Value {
 /// Prints it.
 pub fn info(json: bool) {
     let (program, machine) = (program(), machine());
-    let engines = json!([{ "name": "reference", "what": "the oracle: double precision, CPU" }]);
+    let engines = json!([
+        { "name": "reference", "what": "the oracle: double precision, CPU" },
+        { "name": "wgpu", "what": "the kernel: single precision, any adapter" },
+    ]);
+    let adapters = adapters();
     if json {
-        say(&json!({ "program": program, "machine": machine, "engines": engines }).to_string());
+        let adapters: Vec<Value> = adapters.iter().map(adapter_facts).collect();
+        let all = json!({
+            "program": program, "machine": machine, "engines": engines, "adapters": adapters,
+        });
+        say(&all.to_string());
         return;
     }
     let text = |value: &Value| match value {
@@ -53,6 +62,35 @@ pub fn info(json: bool) {
     say(&format!("threads    {}", text(&machine["threads"])));
     say(&format!("memory     {gib}"));
     say("engines    reference (the oracle: double precision, CPU)");
+    say("           wgpu (the kernel: single precision, any adapter below)");
+    if adapters.is_empty() {
+        say("adapters   none: a Vulkan, Metal or DX12 driver is needed, or Mesa's software Vulkan");
+    }
+    for (number, adapter) in adapters.iter().enumerate() {
+        say(&format!(
+            "{}{} ({}, {}; {}); largest binding {} MiB, {} bindings",
+            if number == 0 { "adapters   " } else { "           " },
+            adapter.name,
+            adapter.kind,
+            adapter.backend,
+            adapter.driver,
+            adapter.max_binding_bytes >> 20,
+            adapter.max_bindings,
+        ));
+    }
+}
+
+/// An adapter for scripts.
+fn adapter_facts(adapter: &AdapterFacts) -> Value {
+    json!({
+        "name": adapter.name,
+        "kind": adapter.kind,
+        "backend": adapter.backend,
+        "driver": adapter.driver,
+        "max_buffer_bytes": adapter.max_buffer_bytes,
+        "max_binding_bytes": adapter.max_binding_bytes,
+        "max_bindings": adapter.max_bindings,
+    })
 }
 
 /// Prints the JSON schema of scene files, or the reference for people.

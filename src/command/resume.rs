@@ -32,8 +32,8 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
         return Err(CommandError::Resume(problem));
     }
     let scene = Scene::load(&file, &[])?;
-    let mut engine = engine(&scene, &file)?;
-    let progress = go_back(request, &scene, &mut engine)?;
+    let mut engine = engine(&scene, &file, false)?;
+    let progress = go_back(request, &scene, engine.as_mut())?;
     if progress.is_none() {
         eprintln!("there is no checkpoint yet: the run starts again from its beginning");
         for record in &scene.records {
@@ -43,7 +43,7 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
             }
         }
     }
-    execute(&scene, &mut engine, folder, progress.as_ref(), request.json)
+    execute(&scene, engine.as_mut(), folder, progress.as_ref(), request.json)
 }
 
 /// Puts the engine into the state of the checkpoint; `None` if there is none.

@@ -4,6 +4,7 @@
 mod bytes;
 pub mod free_state;
 mod reference;
+mod wgpu;
 
 use std::io::{self, Read, Write};
 
@@ -11,8 +12,12 @@ use psmrt_reference::coupling::CoupledStop;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Load, Solid};
+use thiserror::Error;
+
+use crate::kernel::KernelError;
 
 pub use reference::ReferenceEngine;
+pub use wgpu::{KernelEngine, Profile, StartError};
 
 /// The state of one cell, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +41,17 @@ pub struct BoxMeans {
     pub max_speed: f64,
 }
 
+/// Why an engine cannot go on.
+#[derive(Debug, Error)]
+pub enum EngineStop {
+    /// The guard of the fluid has stopped it, or the grains cannot be moved.
+    #[error(transparent)]
+    Broken(#[from] CoupledStop),
+    /// The device has failed.
+    #[error(transparent)]
+    Device(#[from] KernelError),
+}
+
 /// Something that computes a scene step by step.
 pub trait Engine {
     /// Its name, as `--engine` spells it.
@@ -44,9 +60,25 @@ pub trait Engine {
     /// Steps made so far.
     fn steps(&self) -> u64;
 
-    /// Makes `count` steps. Errors when the guard finds the state broken or a free grain cannot be
-    /// moved.
-    fn step(&mut self, count: u64) -> Result<(), CoupledStop>;
+    /// What it computes on besides the processor, if it does.
+    fn adapter(&self) -> Option<String> {
+        None
+    }
+
+    /// Makes `count` steps. Errors when the guard finds the state broken, a free grain cannot be moved,
+    /// or the device fails.
+    fn step(&mut self, count: u64) -> Result<(), EngineStop>;
+
+    /// Errors if the device has failed while something was observed: what was seen then is not a
+    /// number.
+    fn still_works(&self) -> Result<(), EngineStop> {
+        Ok(())
+    }
+
+    /// Where the time has gone, if that is kept.
+    fn profile(&self) -> Option<Profile> {
+        None
+    }
 
     /// Means over the box.
     fn box_means(&self) -> BoxMeans;

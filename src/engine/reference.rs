@@ -12,7 +12,7 @@ use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::{Memory, Solver};
 
 use super::bytes::{expect, put_real, put_vector, put_whole, real, vector, whole};
-use super::{BoxMeans, CellState, Engine, free_state};
+use super::{BoxMeans, CellState, Engine, EngineStop, free_state};
 use crate::scene::{FreePart, Scene};
 
 /// Plain double precision on the CPU.
@@ -66,11 +66,12 @@ impl Engine for ReferenceEngine {
         self.fluid().steps()
     }
 
-    fn step(&mut self, count: u64) -> Result<(), CoupledStop> {
+    fn step(&mut self, count: u64) -> Result<(), EngineStop> {
         match &mut self.state {
-            State::Fluid(solver) => Ok(solver.run(count)?),
-            State::Coupled(solver, _) => solver.run(count),
+            State::Fluid(solver) => solver.run(count).map_err(CoupledStop::from)?,
+            State::Coupled(solver, _) => solver.run(count)?,
         }
+        Ok(())
     }
 
     fn box_means(&self) -> BoxMeans {

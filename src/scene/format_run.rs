@@ -132,8 +132,12 @@ pub struct CheckpointSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EngineSection {
-    /// `reference`: double precision on the CPU.
+    /// `reference`: double precision on the CPU; `wgpu`: single precision on a GPU; `auto`: `wgpu` where
+    /// there is a GPU, else `reference`.
     pub kind: EngineKind,
+    /// With `wgpu` and `auto`: a part of the adapter's name as `psmrt info` lists it; the fastest kind
+    /// where absent.
+    pub adapter: Option<String>,
 }
 
 /// An engine.
@@ -143,6 +147,10 @@ pub enum EngineKind {
     /// The oracle.
     #[default]
     Reference,
+    /// The kernel.
+    Wgpu,
+    /// The kernel where there is a GPU in hardware, else the oracle.
+    Auto,
 }
 
 /// An exact solution to compare with.

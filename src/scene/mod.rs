@@ -32,6 +32,7 @@ pub use check::free::FreePart;
 pub use check::grains::Attachment;
 pub use check::records::{Record, Rhythm, What};
 pub use check::stop::{Steady, Stop};
+pub use format_run::EngineKind;
 pub use trouble::{SceneError, Trouble};
 pub use units::Units;
 
@@ -65,6 +66,10 @@ pub struct Scene {
     pub stop: Stop,
     /// The exact solution to compare with.
     pub exact: Option<PlanePoiseuille>,
+    /// What is to compute it.
+    pub engine: EngineKind,
+    /// A part of the name of the adapter that is to be used, if one is named.
+    pub adapter: Option<String>,
 }
 
 impl Scene {

@@ -86,6 +86,8 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         records,
         stop,
         exact,
+        engine: file.engine.as_ref().map(|section| section.kind).unwrap_or_default(),
+        adapter: file.engine.as_ref().and_then(|section| section.adapter.clone()),
     })
 }
 
