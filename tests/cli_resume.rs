@@ -1,6 +1,7 @@
 //! A run that is killed at any moment goes on, and ends with the same bytes as one that was not.
 
 mod cli;
+mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use cli::{Folder, psmrt, stderr};
+use common::Budget;
 
 /// A sphere that moves through a box, all kinds of records, in half a second of computing.
 const SCENE: &str = r#"
@@ -82,6 +84,10 @@ name = "loads"
 kind = "loads"
 every_steps = 3
 [[records]]
+name = "means"
+kind = "grain_means"
+every_steps = 5
+[[records]]
 name = "grains"
 kind = "grains"
 every_steps = 50
@@ -135,6 +141,8 @@ fn assert_same(a: &[(PathBuf, Vec<u8>)], b: &[(PathBuf, Vec<u8>)], what: &str) {
 
 /// The reference, and how long it took.
 fn uninterrupted(folder: &Folder, scene: &Path) -> (Vec<(PathBuf, Vec<u8>)>, Duration) {
+    // For the three tests of this file that compare one run with the whole.
+    Budget::oracle(8_400_000).spend(3 * 2 * 600 * 16 * 12 * 12);
     let out = folder.path("whole");
     let begin = std::time::Instant::now();
     assert!(start(scene, &out).wait().unwrap().success());
@@ -143,14 +151,17 @@ fn uninterrupted(folder: &Folder, scene: &Path) -> (Vec<(PathBuf, Vec<u8>)>, Dur
 
 #[test]
 fn a_run_killed_again_and_again_ends_with_the_same_bytes() {
+    // The whole run and four that are killed, which do some steps twice.
+    Budget::oracle(8_100_000).spend(5 * 700 * 16 * 12 * 12);
     // Tables and pictures of them, and 4 times 3 arrays.
-    killed_again_and_again("killed", SCENE, 3 + 2 + 3 * 4);
+    killed_again_and_again("killed", SCENE, 3 + 3 + 3 * 4);
 }
 
 #[test]
 fn a_run_with_free_grains_that_touch_ends_with_the_same_bytes_too() {
-    // The list of grains, a table, 9 files of grains and their series.
-    killed_again_and_again("killed_free", FREE_SCENE, 1 + 1 + 9 + 1);
+    Budget::oracle(7_000_000).spend(5 * 500 * 16 * 12 * 14);
+    // The list of grains, two tables and their pictures, 9 files of grains and their series.
+    killed_again_and_again("killed_free", FREE_SCENE, 1 + 4 + 9 + 1);
 }
 
 fn killed_again_and_again(name: &str, text: &str, files: usize) {

@@ -245,6 +245,8 @@ const BAD: &[Bad] = &[
     Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\ncutoff_gap = 1e-9", "lubrication.cutoff_gap", "a thousandth"),
     Bad("centre = [5e-4, 2.5e-4, 2.5e-4]", "centre = [5e-4, 4.9e-4, 2.5e-4]", "grains[2].centre", "its own image"),
     Bad("centre = [5e-4, 2.5e-4, 2.5e-4]", "centre = [5e-4, 5e-4, 2.5e-4]", "grains[0].centre", "all centres on the plane or none"),
+    Bad("column = \"density\"", "column = \"kinetic_energy\"", "stop.steady.column", "superficial_velocity_x"),
+    Bad("motion = \"free\"\ndensity = 2650.0\n[gravity]\nacceleration = [0.0, 0.0, -9.81]\nform = \"reduced\"\n[contact]\nduration = 6e-4\nrestitution = 0.6\nfriction = 0.4\ntangential_ratio = 0.3\nrolling_resistance = 0.05\n[coupling]\ninternal_fluid = \"lagged\"", "[[records]]\nname = \"m\"\nkind = \"grain_means\"", "records[0].kind", "no free grains"),
     // Not TOML.
     Bad("density = 1000.0", "density = ", "", "not valid TOML"),
     Bad("density = 1000.0", "density = 1000.0\ndensity = 1000.0", "", "not valid TOML"),

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use common::Budget;
 use psmrt::engine::{Engine, ReferenceEngine};
+use psmrt::output::grain_means;
 use psmrt::scene::{FreePart, Scene};
 use psmrt_reference::coupling::{Gravity, InternalFluid};
 use psmrt_reference::grains::grain::Grain;
@@ -247,4 +248,32 @@ fn a_saved_state_of_other_grains_is_refused() {
     assert!(said.contains("3 grains, the scene 4"), "{said}");
     // Cut off, or with a contact of a grain that is not there.
     assert!(scene_of(SCENE).load(&mut &saved[..saved.len() - 9]).is_err());
+}
+
+#[test]
+fn means_over_the_free_grains_are_those_of_the_grains() {
+    let mut budget = Budget::oracle(100_000);
+    let scene = scene(SCENE);
+    let mut engine = ReferenceEngine::new(&scene).unwrap();
+    budget.spend(20 * scene.setup.domain.cell_count() as u64);
+    engine.step(20).unwrap();
+    let units = &scene.units;
+    let system = engine.free_grains().unwrap();
+    let grain = &system.grains()[0];
+    // One of three is free: the means are its own.
+    let row = grain_means::row(&scene, &engine);
+    for axis in 0..3 {
+        assert_close(row[axis], grain.position[axis] * units.si_dx);
+        assert_close(row[3 + axis], grain.velocity[axis] * units.si_velocity());
+    }
+    assert_close(row[6], grain.velocity.norm() * units.si_velocity());
+    // m v²/2 + I ω²/2 with m = ρ V and I = 2/5 m a², SI.
+    let (mass, a) = (2500.0 * PI / 6.0 * 2e-4_f64.powi(3), 1e-4);
+    let (v, spin) = (row[6], grain.spin.norm() * units.si_spin());
+    assert_close(row[7], 0.5 * mass * v * v + 0.2 * mass * a * a * spin * spin);
+    // It lies on the fixed grain: one contact, whose overlap follows from the two places.
+    let apart = (grain.position - system.grains()[1].position).norm() * units.si_dx;
+    assert_eq!(row[8], 1.0);
+    assert!((row[9] - (1.0 - apart / 1.6e-4)).abs() < 1e-12 && row[9] > 0.0, "{}", row[9]);
+    assert_eq!(grain_means::contacts_of_each(&system.state()), [1, 1, 0]);
 }
