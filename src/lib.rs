@@ -10,6 +10,7 @@
 //! | [`estimate`] | what a scene will be, cost and risk |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`command`] | the commands of the command line |
+//! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
 //! | [`machine`] | what this machine has |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -20,6 +21,7 @@ pub mod engine;
 pub mod estimate;
 pub mod exact;
 pub mod machine;
+pub mod oracle;
 pub mod output;
 pub mod run;
 pub mod scene;

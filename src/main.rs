@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
+use psmrt::command::oracle::OracleCommand;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::{self, CommandError};
@@ -70,6 +71,11 @@ Examples:
         #[arg(long, value_name = "FILE")]
         checkpoint: Option<PathBuf>,
     },
+    /// Problems for other people's kernels, a verdict and a diagnosis back
+    Oracle {
+        #[command(subcommand)]
+        command: OracleCommand,
+    },
     /// Says what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -109,6 +115,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Resume { dir, checkpoint } => {
             command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })
         }
+        Command::Oracle { command } => command::oracle::oracle(&command, json),
         Command::Info => {
             command::info::info(json);
             Ok(())
@@ -127,6 +134,9 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
 
 /// Says what went wrong: as JSON, in colour on a terminal, or plainly.
 fn report(error: &CommandError, json: bool) {
+    if matches!(error, CommandError::CandidateFailed) {
+        return; // the verdict is the report
+    }
     if json {
         println!("{}", error.to_json());
         return;
