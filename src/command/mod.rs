@@ -55,7 +55,9 @@ pub enum CommandError {
     #[error(transparent)]
     Oracle(#[from] FilesError),
     /// A candidate's folder without a single answer.
-    #[error("{folder} has no answers: put them at {folder}/PROBLEM/ANSWER.npy, as the kit's README says")]
+    #[error(
+        "{folder} has no answers: put them at {folder}/PROBLEM/ANSWER.npy, as the kit's README says"
+    )]
     NoAnswers {
         /// The folder.
         folder: String,

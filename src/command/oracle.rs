@@ -17,21 +17,25 @@ use crate::oracle::mistakes::CATALOGUE;
 #[derive(Clone, Debug, Subcommand)]
 pub enum OracleCommand {
     /// Writes the conformance kit: problems, expected answers, and how to answer
-    #[command(after_help = "Start with kit/README.md: all that it needs is NumPy, or nothing but C.
+    #[command(
+        after_help = "Start with kit/README.md: all that it needs is NumPy, or nothing but C.
 
 Example:
-  psmrt oracle export --out kit")]
+  psmrt oracle export --out kit"
+    )]
     Export {
         /// Folder for the kit, empty or absent
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
     /// Judges a candidate's answers and says what is wrong with them
-    #[command(after_help = "Exit code: 0 all that was attempted is right, 1 something is wrong, 2 the folders
+    #[command(
+        after_help = "Exit code: 0 all that was attempted is right, 1 something is wrong, 2 the folders
 cannot be used.
 
 Example:
-  psmrt oracle check kit candidate")]
+  psmrt oracle check kit candidate"
+    )]
     Check {
         /// Folder of the kit
         kit: PathBuf,
@@ -61,7 +65,9 @@ pub fn oracle(command: &OracleCommand, json: bool) -> Result<(), CommandError> {
             } else {
                 let folder = out.display();
                 say(&format!("{files} files, {:.1} MB, in {folder}", bytes as f64 / 1e6));
-                say(&format!("read {folder}/README.md; judge answers with `psmrt oracle check {folder} DIR`"));
+                say(&format!(
+                    "read {folder}/README.md; judge answers with `psmrt oracle check {folder} DIR`"
+                ));
             }
             Ok(())
         }
@@ -98,9 +104,9 @@ fn check(kit_folder: &Path, candidate: &Path, json: bool) -> Result<(), CommandE
 
 fn mistakes(json: bool) {
     if json {
-        let list = CATALOGUE.iter().map(|entry| {
-            json!({ "mistake": entry.name, "what": entry.what, "look_at": entry.look_at })
-        });
+        let list = CATALOGUE.iter().map(
+            |entry| json!({ "mistake": entry.name, "what": entry.what, "look_at": entry.look_at }),
+        );
         say(&list.collect::<serde_json::Value>().to_string());
         return;
     }

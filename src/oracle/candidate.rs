@@ -5,8 +5,8 @@ use super::order::DirectionOrder;
 use super::precision::Precision;
 use super::problem::Problem;
 use super::task::{
-    Collisions, Constants, Contacts, Formulas, Scene, SceneOutcome, SharedCells, SolidCells, Spheres,
-    States, Streaming, Task,
+    Collisions, Constants, Contacts, Formulas, Scene, SceneOutcome, SharedCells, SolidCells,
+    Spheres, States, Streaming, Task,
 };
 
 /// An engine that can be judged. Every kind of problem is a method; what is left as it is answers

@@ -1,11 +1,16 @@
 //! The diagnosis: which single mistake of the catalogue reproduces the candidate's wrong numbers.
 
-use super::array::Array;
+use psmrt_reference::lattice::Populations;
+
+use super::array::{Answers, Array};
 use super::judge::{Judged, LIMIT, Outcome, Submission, largest_ratio};
 use super::kit::Kit;
-use super::mistakes::{CATALOGUE, Mistake};
-use super::model::Model;
+use super::mistakes::{CATALOGUE, Entry, Mistake};
+use super::model::{GaugedAnswers, Model};
+use super::order::DirectionOrder;
+use super::problem::Problem;
 use super::residual::{Place, locate};
+use super::task::Task;
 
 /// A mistake that reproduces wrong answers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -50,9 +55,11 @@ pub(super) fn diagnose(
     submission: &Submission,
 ) -> Option<Diagnosis> {
     let mut given = Vec::new();
-    let numbers = kit.problems.iter().enumerate().flat_map(|(number, solved)| {
-        solved.expected.iter().map(move |_| number)
-    });
+    let numbers = kit
+        .problems
+        .iter()
+        .enumerate()
+        .flat_map(|(number, solved)| solved.expected.iter().map(move |_| number));
     for ((judged, array), problem) in judged.iter().zip(usable).zip(numbers) {
         if let Some(array) = array {
             given.push(Given { problem, judged, array });
@@ -61,24 +68,18 @@ pub(super) fn diagnose(
     if !given.iter().any(|given| wrong(given.judged)) {
         return None;
     }
-    let mut trials = Vec::new();
-    for entry in &CATALOGUE {
-        let model = Model::mistaken(entry.mistake, &submission.order);
-        let epsilon = submission.precision.epsilon();
-        trials.push(try_mistake(kit, &given, &model, epsilon).map(|contradicted| Fit {
-            mistake: entry.mistake,
-            contradicted,
-        }));
-    }
-    let mut single: Vec<Fit> = trials.into_iter().flatten().collect();
-    single.sort_by_key(|fit| fit.contradicted.len());
-    // What contradicts right answers is only worth a word if nothing fits without.
-    if single.first().is_some_and(|fit| fit.contradicted.is_empty()) {
-        single.retain(|fit| fit.contradicted.is_empty());
+    let mut judge =
+        Trials { kit, given: &given, epsilon: submission.precision.epsilon(), strict: true };
+    let mut single = judge.fits(&submission.order);
+    if single.is_empty() {
+        // What contradicts right answers is only worth a word if nothing fits without.
+        judge.strict = false;
+        single = judge.fits(&submission.order);
+        single.sort_by_key(|fit| fit.contradicted.len());
     }
     let (mut by_problem, mut places) = (Vec::new(), Vec::new());
     if single.is_empty() {
-        by_problem = explain_by_problem(kit, &given, submission);
+        by_problem = judge.by_problem(&submission.order);
         for given in given.iter().filter(|given| wrong(given.judged)) {
             let id = given.judged.problem;
             if by_problem.iter().any(|(problem, mistakes)| *problem == id && mistakes.is_empty()) {
@@ -96,67 +97,143 @@ fn wrong(judged: &Judged) -> bool {
     matches!(judged.outcome, Outcome::Wrong(_))
 }
 
-/// `None` unless the mistake reproduces all wrong answers; else the right answers that it contradicts.
-/// Problems are tried from the cheapest, and the first wrong answer that differs ends the trial.
-fn try_mistake(
-    kit: &Kit,
-    given: &[Given<'_>],
-    model: &Model,
-    epsilon: f64,
-) -> Option<Vec<(&'static str, &'static str)>> {
-    let mut contradicted = Vec::new();
-    for chunk in given.chunk_by(|a, b| a.problem == b.problem) {
-        let solved = &kit.problems[chunk[0].problem];
-        let predicted = model.answer(&solved.problem);
-        for given in chunk {
-            let name = given.judged.answer;
-            if reproduces(&predicted, name, given.array, epsilon) {
-                continue;
-            }
-            if wrong(given.judged) {
-                return None;
-            }
-            contradicted.push((given.judged.problem, name));
-        }
-    }
-    Some(contradicted)
+/// How a prediction and a candidate's answer go together.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Match {
+    Reproduced,
+    /// The mistake makes the scene unstable: round-off has grown beyond comparison.
+    Undecided,
+    Differs,
 }
 
-fn reproduces(
-    predicted: &super::model::GaugedAnswers,
-    name: &str,
-    array: &Array,
+/// Trials of mistakes on the answers of a candidate.
+struct Trials<'a> {
+    kit: &'a Kit,
+    given: &'a [Given<'a>],
     epsilon: f64,
-) -> bool {
-    let (Some(values), Some(gauges)) = (predicted.values.get(name), predicted.gauges.get(name)) else {
-        return false;
-    };
-    largest_ratio(&array.values, &values.values, &gauges.values) <= LIMIT * epsilon
+    /// A right answer that the mistake would have changed ends a trial.
+    strict: bool,
 }
 
-/// For each problem with wrong answers, the mistakes that reproduce these.
-fn explain_by_problem(
-    kit: &Kit,
-    given: &[Given<'_>],
-    submission: &Submission,
-) -> Vec<(&'static str, Vec<Mistake>)> {
-    let epsilon = submission.precision.epsilon();
-    let models: Vec<(Mistake, Model)> = CATALOGUE
-        .iter()
-        .map(|entry| (entry.mistake, Model::mistaken(entry.mistake, &submission.order)))
-        .collect();
-    let mut explained = Vec::new();
-    for chunk in given.chunk_by(|a, b| a.problem == b.problem) {
-        if !chunk.iter().any(|given| wrong(given.judged)) {
-            continue;
-        }
-        let solved = &kit.problems[chunk[0].problem];
-        let fits = |model: &Model| {
-            let predicted = model.answer(&solved.problem);
-            chunk.iter().all(|given| reproduces(&predicted, given.judged.answer, given.array, epsilon))
+impl<'a> Trials<'a> {
+    /// The mistakes that reproduce all wrong answers.
+    fn fits(&self, order: &DirectionOrder) -> Vec<Fit> {
+        let fit = |entry: &Entry| {
+            let contradicted = self.single(&Model::mistaken(entry.mistake, order))?;
+            Some(Fit { mistake: entry.mistake, contradicted })
         };
-        let mistakes = models.iter().filter(|(_, model)| fits(model)).map(|(mistake, _)| *mistake);
-        explained.push((solved.problem.id, mistakes.collect()));
+        CATALOGUE.iter().filter_map(fit).collect()
     }
-    explained
+
+    /// The answers given to each problem.
+    fn problems(&self) -> impl Iterator<Item = &'a [Given<'a>]> + use<'a> {
+        self.given.chunk_by(|a, b| a.problem == b.problem)
+    }
+
+    /// `None` unless the mistake reproduces all wrong answers; else the right answers that it
+    /// contradicts. Problems are tried from the cheapest, and the first answer that differs ends it.
+    fn single(&self, model: &Model) -> Option<Vec<(&'static str, &'static str)>> {
+        let (mut contradicted, mut reproduced) = (Vec::new(), 0);
+        for answers in self.problems() {
+            let prediction = self.predict(model, answers[0].problem);
+            for given in answers {
+                match (self.compare(&prediction, given), wrong(given.judged)) {
+                    (Match::Reproduced, true) => reproduced += 1,
+                    (Match::Reproduced, false) | (Match::Undecided, true) => {}
+                    (Match::Differs, true) => return None,
+                    (_, false) if self.strict => return None,
+                    (_, false) => contradicted.push((given.judged.problem, given.judged.answer)),
+                }
+            }
+        }
+        (reproduced > 0).then_some(contradicted)
+    }
+
+    /// For each problem with wrong answers, the mistakes that reproduce all answers to it. Scenes of
+    /// several steps are dear: once something is wrong before them, only its explanations are tried.
+    fn by_problem(&self, order: &DirectionOrder) -> Vec<(&'static str, Vec<Mistake>)> {
+        let mut explained: Vec<(&'static str, Vec<Mistake>)> = Vec::new();
+        for answers in
+            self.problems().filter(|answers| answers.iter().any(|given| wrong(given.judged)))
+        {
+            let problem = &self.kit.problems[answers[0].problem].problem;
+            let dear = matches!(&problem.task, Task::Scene(scene) if scene.steps > 1);
+            let tried = |entry: &&Entry| {
+                !dear
+                    || explained.is_empty()
+                    || explained.iter().any(|(_, mistakes)| mistakes.contains(&entry.mistake))
+            };
+            let fits = |entry: &&Entry| {
+                let model = Model::mistaken(entry.mistake, order);
+                let prediction = self.predict(&model, answers[0].problem);
+                answers.iter().all(|given| self.compare(&prediction, given) == Match::Reproduced)
+            };
+            let mistakes = CATALOGUE.iter().filter(tried).filter(fits).map(|entry| entry.mistake);
+            let found = (problem.id, mistakes.collect());
+            explained.push(found);
+        }
+        explained
+    }
+
+    fn predict(&self, model: &Model, problem: usize) -> Prediction {
+        let problem = &self.kit.problems[problem].problem;
+        let disturbed = match &problem.task {
+            Task::Scene(scene) if scene.steps > LONG => {
+                let mut scene = scene.clone();
+                disturb(&mut scene.populations, self.epsilon);
+                let task = Task::Scene(scene);
+                Some(model.answer(&Problem { task, ..problem.clone() }).values)
+            }
+            _ => None,
+        };
+        Prediction { answers: model.answer(problem), disturbed }
+    }
+
+    fn compare(&self, prediction: &Prediction, given: &Given<'_>) -> Match {
+        let name = given.judged.answer;
+        let GaugedAnswers { values, gauges } = &prediction.answers;
+        let (Some(values), Some(gauges)) = (values.get(name), gauges.get(name)) else {
+            return Match::Differs;
+        };
+        let close = |gauges: &[f64]| {
+            largest_ratio(&given.array.values, &values.values, gauges) <= LIMIT * self.epsilon
+        };
+        if close(&gauges.values) {
+            return Match::Reproduced;
+        }
+        let Some(disturbed) = prediction.disturbed.as_ref().and_then(|answers| answers.get(name))
+        else {
+            return Match::Differs;
+        };
+        // What the mistake makes of a disturbance by one epsilon, it makes of round-off too.
+        let grown = |i: usize| {
+            let growth = (values.values[i] - disturbed.values[i]).abs() / self.epsilon;
+            if growth.is_finite() { gauges.values[i] + GROWTH * growth } else { f64::INFINITY }
+        };
+        let grown: Vec<f64> = (0..values.values.len()).map(grown).collect();
+        let finite = given.array.values.iter().chain(&values.values).all(|value| value.is_finite());
+        if !finite || close(&grown) { Match::Undecided } else { Match::Differs }
+    }
+}
+
+/// What a mistake makes of a problem.
+struct Prediction {
+    answers: GaugedAnswers,
+    /// The same from a disturbed start, for long scenes.
+    disturbed: Option<Answers>,
+}
+
+/// Scenes of more steps may let round-off grow out of hand, if a mistake makes them unstable.
+const LONG: u64 = 20;
+
+/// Round-off is made in every step, in other places than the disturbance at the start: it may grow to
+/// this many times as much.
+const GROWTH: f64 = 100.0;
+
+/// Changes populations by one epsilon up or down, without a pattern.
+fn disturb(populations: &mut [Populations], epsilon: f64) {
+    for (number, f) in populations.iter_mut().flatten().enumerate() {
+        let mixed = (number as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        *f *= if mixed >> 63 == 0 { 1.0 + epsilon } else { 1.0 - epsilon };
+    }
 }

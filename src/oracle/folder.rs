@@ -21,7 +21,11 @@ pub fn read(kit: &Kit, folder: &Path) -> Result<Submission, FilesError> {
     let order = match &manifest.directions {
         None => DirectionOrder::default(),
         Some(directions) => DirectionOrder::new(directions).map_err(|error| {
-            FilesError::bad(&path, error, "list all nineteen as [x, y, z] in your order, or leave it out")
+            FilesError::bad(
+                &path,
+                error,
+                "list all nineteen as [x, y, z] in your order, or leave it out",
+            )
         })?,
     };
     let mut answers = vec![Vec::new(); kit.problems.len()];

@@ -13,7 +13,9 @@ use serde_json::{Map, Value, json};
 
 use super::array::Array;
 use super::spec::DIRECTION;
-use super::task::{CollidingCell, Constants, Contacts, Scene, Task, TouchingPair, Wanted, kit_directions};
+use super::task::{
+    CollidingCell, Constants, Contacts, Scene, Task, TouchingPair, Wanted, kit_directions,
+};
 
 /// An array that a problem gives.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +39,12 @@ pub fn inputs(task: &Task) -> Vec<Input> {
     let vector = "component";
     match task {
         Task::Constants(Constants { viscosities, .. }) => vec![
-            input("directions", "the kit's order of directions", &[DIRECTION, vector], kit_directions()),
+            input(
+                "directions",
+                "the kit's order of directions",
+                &[DIRECTION, vector],
+                kit_directions(),
+            ),
             input("viscosity", "cells^2/step", &["viscosity"], Array::list(viscosities.clone())),
         ],
         Task::Moments(states) => {
@@ -120,7 +127,9 @@ fn collision_inputs(cells: &[CollidingCell]) -> Vec<Input> {
 fn mrt_rates(collision: &Collision) -> Option<[f64; 6]> {
     match collision {
         Collision::Srt { .. } => None,
-        Collision::Mrt { rates: Rates { e, eps, q, nu, pi, m } } => Some([*e, *eps, *q, *nu, *pi, *m]),
+        Collision::Mrt { rates: Rates { e, eps, q, nu, pi, m } } => {
+            Some([*e, *eps, *q, *nu, *pi, *m])
+        }
     }
 }
 
@@ -133,7 +142,12 @@ fn scene_inputs(scene: &Scene) -> Vec<Input> {
         let of = |solid| {
             let coverage = &coverage;
             (0..domain.cell_count()).map(move |cell| {
-                coverage.shares(cell).iter().filter(|s| s.solid == solid).map(|s| s.epsilon).sum::<f64>()
+                coverage
+                    .shares(cell)
+                    .iter()
+                    .filter(|s| s.solid == solid)
+                    .map(|s| s.epsilon)
+                    .sum::<f64>()
             })
         };
         let values = (0..phase.solids.len()).flat_map(of).collect();
@@ -146,12 +160,18 @@ fn scene_inputs(scene: &Scene) -> Vec<Input> {
 }
 
 fn contact_inputs(pairs: &[TouchingPair]) -> Vec<Input> {
-    let vectors = |of: fn(&TouchingPair) -> Vec3| Array::vectors(&pairs.iter().map(of).collect::<Vec<_>>());
+    let vectors =
+        |of: fn(&TouchingPair) -> Vec3| Array::vectors(&pairs.iter().map(of).collect::<Vec<_>>());
     let list = |of: fn(&TouchingPair) -> f64| Array::list(pairs.iter().map(of).collect());
     let (pair, vector) = ("pair", ["pair", "component"]);
     let radii = pairs.iter().flat_map(|pair| pair.radii).collect();
     let mut inputs = vec![
-        input("radii", "radii of both; 0: a plane", &[pair, "body"], Array::new([pairs.len(), 2], radii)),
+        input(
+            "radii",
+            "radii of both; 0: a plane",
+            &[pair, "body"],
+            Array::new([pairs.len(), 2], radii),
+        ),
         input(
             "offset",
             "from the first centre to the second, or to the nearest point of the plane",
@@ -159,7 +179,12 @@ fn contact_inputs(pairs: &[TouchingPair]) -> Vec<Input> {
             vectors(|p| p.offset),
         ),
         input("velocity_first", "of the centre", &vector, vectors(|p| p.motions[0].velocity)),
-        input("velocity_second", "of the centre, or the plane", &vector, vectors(|p| p.motions[1].velocity)),
+        input(
+            "velocity_second",
+            "of the centre, or the plane",
+            &vector,
+            vectors(|p| p.motions[1].velocity),
+        ),
         input("spin_first", "angular velocity", &vector, vectors(|p| p.motions[0].spin)),
         input("spin_second", "angular velocity", &vector, vectors(|p| p.motions[1].spin)),
         input("stiffness", "k, force/length", &[pair], list(|p| p.law.stiffness)),
@@ -172,16 +197,28 @@ fn contact_inputs(pairs: &[TouchingPair]) -> Vec<Input> {
         friction("friction", "mu", |p| p.law.friction.map_or(0.0, |f| f.coefficient));
         friction("tangential_stiffness", "k_t", |p| p.law.friction.map_or(0.0, |f| f.stiffness));
         friction("tangential_damping", "gamma_t", |p| p.law.friction.map_or(0.0, |f| f.damping));
-        inputs.push(input("spring", "tangential spring xi", &vector, vectors(|p| p.springs.spring)));
+        inputs.push(input(
+            "spring",
+            "tangential spring xi",
+            &vector,
+            vectors(|p| p.springs.spring),
+        ));
     }
     if pairs.iter().any(|pair| pair.law.rolling.is_some()) {
         let mut rolling = |name, what, of: fn(&TouchingPair) -> f64| {
             inputs.push(input(name, what, &[pair], list(of)));
         };
         rolling("rolling_friction", "mu_r", |p| p.law.rolling.map_or(0.0, |r| r.coefficient));
-        rolling("rolling_stiffness", "k_r, force/length", |p| p.law.rolling.map_or(0.0, |r| r.stiffness));
+        rolling("rolling_stiffness", "k_r, force/length", |p| {
+            p.law.rolling.map_or(0.0, |r| r.stiffness)
+        });
         rolling("rolling_damping", "gamma_r", |p| p.law.rolling.map_or(0.0, |r| r.damping));
-        inputs.push(input("rolling_spring", "theta, radians", &vector, vectors(|p| p.springs.rolling)));
+        inputs.push(input(
+            "rolling_spring",
+            "theta, radians",
+            &vector,
+            vectors(|p| p.springs.rolling),
+        ));
     }
     inputs
 }
@@ -199,7 +236,8 @@ pub fn parameters(task: &Task) -> Value {
             let mut parameters = Map::new();
             let mrt = first.is_some_and(|cell| mrt_rates(&cell.collision).is_some());
             parameters.insert("collision".into(), if mrt { "mrt" } else { "srt" }.into());
-            parameters.insert("body_force".into(), first.is_some_and(|c| c.body_force.is_some()).into());
+            parameters
+                .insert("body_force".into(), first.is_some_and(|c| c.body_force.is_some()).into());
             if first.is_some_and(|cell| cell.solid.is_some()) {
                 parameters.insert("operator".into(), operator_name(task.operator).into());
                 parameters.insert("weighting".into(), weighting_name(task.weighting).into());
@@ -210,7 +248,9 @@ pub fn parameters(task: &Task) -> Value {
             json!({ "weighting": weighting_name(Weighting::NobleTorczynski) })
         }
         Task::SolidFractions(_) => json!({}),
-        Task::Streaming(task) => json!({ "cells": task.domain.cells(), "faces": faces(&task.domain) }),
+        Task::Streaming(task) => {
+            json!({ "cells": task.domain.cells(), "faces": faces(&task.domain) })
+        }
         Task::Scene(scene) => scene_parameters(scene),
         Task::Contacts(Contacts { plane, pairs }) => json!({
             "plane": plane,
@@ -252,7 +292,9 @@ fn scene_parameters(scene: &Scene) -> Value {
         Collision::Mrt { rates } => {
             parameters["collision"] = "mrt".into();
             parameters["rates"] = named_rates(rates);
-            if let (true, Some(rates)) = (scene.viscosity_given, parameters["rates"].as_object_mut()) {
+            if let (true, Some(rates)) =
+                (scene.viscosity_given, parameters["rates"].as_object_mut())
+            {
                 rates.remove("nu");
             }
         }
@@ -304,7 +346,9 @@ fn faces(domain: &Domain) -> Value {
         for side in 0..2 {
             let face = match domain.faces().axis(axis)[side] {
                 Face::Periodic => json!({ "kind": "periodic" }),
-                Face::Wall { velocity } => json!({ "kind": "wall", "velocity": components(velocity) }),
+                Face::Wall { velocity } => {
+                    json!({ "kind": "wall", "velocity": components(velocity) })
+                }
                 Face::FreeSlip => json!({ "kind": "free_slip" }),
                 Face::VelocityInlet { velocity } => {
                     json!({ "kind": "velocity_inlet", "velocity": components(velocity) })
@@ -337,4 +381,3 @@ pub fn kind(task: &Task) -> &'static str {
         Task::Formulas(_) => "formulas",
     }
 }
-

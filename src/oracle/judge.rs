@@ -5,9 +5,10 @@ use psmrt_reference::directions::Q;
 use super::array::{Answers, Array};
 use super::candidate::{Candidate, answers};
 use super::diagnosis::{Diagnosis, diagnose};
-use super::kit::{Expected, Kit, KitError};
+use super::kit::{Expected, Kit, KitError, Solved};
 use super::order::DirectionOrder;
 use super::precision::Precision;
+use super::problem::Problem;
 use super::spec::DIRECTION;
 
 /// Largest error that passes, in the candidate's epsilon times the gauge.
@@ -103,21 +104,37 @@ pub struct Submission {
     pub unasked: Vec<String>,
 }
 
+impl Submission {
+    /// The answers of an engine to all problems of `kit`.
+    pub fn of(kit: &Kit, candidate: &mut dyn Candidate) -> Self {
+        let mut submission = Self::gather(kit, |problem| answers(candidate, problem));
+        submission.name = candidate.name();
+        submission.precision = candidate.precision();
+        submission.order = candidate.order();
+        submission
+    }
+
+    /// What `answer` gives to all problems of `kit`, in double precision and the kit's order.
+    pub fn gather(kit: &Kit, mut answer: impl FnMut(&Problem) -> Option<Answers>) -> Self {
+        let mut ask = |solved: &Solved| {
+            let Answers(given) = answer(&solved.problem).unwrap_or_default();
+            given.into_iter().map(|(name, array)| (name, Ok(array))).collect()
+        };
+        let answers = kit.problems.iter().map(&mut ask).collect();
+        Submission {
+            name: String::new(),
+            precision: Precision::F64,
+            order: DirectionOrder::default(),
+            answers,
+            unasked: Vec::new(),
+        }
+    }
+}
+
 /// Judges an engine: the whole suite in one call. Errors only if the kit cannot be made.
 pub fn judge(candidate: &mut dyn Candidate) -> Result<Verdict, KitError> {
     let kit = Kit::make()?;
-    let ask = |solved: &super::kit::Solved| {
-        let Answers(given) = answers(candidate, &solved.problem).unwrap_or_default();
-        given.into_iter().map(|(name, array)| (name, Ok(array))).collect()
-    };
-    let given = kit.problems.iter().map(ask).collect();
-    let submission = Submission {
-        name: candidate.name(),
-        precision: candidate.precision(),
-        order: candidate.order(),
-        answers: given,
-        unasked: Vec::new(),
-    };
+    let submission = Submission::of(&kit, candidate);
     Ok(judge_submission(&kit, &submission))
 }
 
@@ -172,7 +189,11 @@ pub(super) fn ratio(found: f64, right: f64, gauge: f64) -> f64 {
 }
 
 /// The array with directions in the kit's order, if it has the shape that is asked for.
-fn into_kit_order(expected: &Expected, array: &Array, order: &DirectionOrder) -> Result<Array, String> {
+fn into_kit_order(
+    expected: &Expected,
+    array: &Array,
+    order: &DirectionOrder,
+) -> Result<Array, String> {
     let spec = &expected.spec;
     if array.shape != spec.shape {
         return Err(format!(
@@ -186,7 +207,8 @@ fn into_kit_order(expected: &Expected, array: &Array, order: &DirectionOrder) ->
     if spec.numbers_directions {
         for value in &mut values {
             let number = (0..Q).find(|&own| own as f64 == *value);
-            let own = number.ok_or_else(|| format!("{value} is not the number of a direction, 0 to 18"))?;
+            let own = number
+                .ok_or_else(|| format!("{value} is not the number of a direction, 0 to 18"))?;
             *value = order.in_kit(own) as f64;
         }
     }

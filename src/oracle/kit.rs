@@ -69,7 +69,8 @@ impl Kit {
                 };
                 Ok(Expected { spec, values, gauges })
             };
-            let expected = answer_specs(&problem.task).into_iter().map(take).collect::<Result<_, _>>()?;
+            let expected =
+                answer_specs(&problem.task).into_iter().map(take).collect::<Result<_, _>>()?;
             Ok(Solved { problem, expected })
         };
         let problems = problems::all().map_err(KitError::Problem)?;

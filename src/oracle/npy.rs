@@ -23,7 +23,9 @@ pub enum NpyError {
     #[error("its header has no {0}")]
     Header(&'static str),
     /// A type of values that is not read.
-    #[error("its values are of type {0:?}: save it as float64, float32, float16 or an integer, little-endian")]
+    #[error(
+        "its values are of type {0:?}: save it as float64, float32, float16 or an integer, little-endian"
+    )]
     Type(String),
 }
 
@@ -47,7 +49,8 @@ pub fn read(bytes: &[u8]) -> Result<Array, NpyError> {
     let shape = shape(&header).ok_or(NpyError::Header("shape"))?;
     let (size, convert) = converter(&descr).ok_or(NpyError::Type(descr))?;
     let count = shape.iter().try_fold(1_usize, |product, &n| product.checked_mul(n));
-    let needed = count.and_then(|count| count.checked_mul(size)).ok_or(NpyError::Header("usable shape"))?;
+    let needed =
+        count.and_then(|count| count.checked_mul(size)).ok_or(NpyError::Header("usable shape"))?;
     if values.len() < needed {
         return Err(NpyError::Short { found: values.len(), needed });
     }
@@ -116,7 +119,10 @@ fn into_c_order(shape: &[usize], values: &[f64]) -> Vec<f64> {
             indices.push(position % length);
             position /= length;
         }
-        indices.iter().zip(shape.iter().rev()).fold(0, |place, (&index, &length)| place * length + index)
+        indices
+            .iter()
+            .zip(shape.iter().rev())
+            .fold(0, |place, (&index, &length)| place * length + index)
     };
     (0..values.len()).map(|position| values[place(position)]).collect()
 }

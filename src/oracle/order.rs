@@ -20,7 +20,9 @@ pub enum OrderError {
         count: usize,
     },
     /// One that is not in D3Q19.
-    #[error("directions[{number}] = {direction:?} is not one of D3Q19's: components are -1, 0 or 1, at most two of them not 0")]
+    #[error(
+        "directions[{number}] = {direction:?} is not one of D3Q19's: components are -1, 0 or 1, at most two of them not 0"
+    )]
     Foreign {
         /// Its number.
         number: usize,

@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 /// The precision of a candidate.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema,
+)]
 pub enum Precision {
     /// Double precision throughout.
     #[default]
@@ -21,9 +23,9 @@ impl Precision {
     /// Machine epsilon: the distance from 1 to the next number.
     pub fn epsilon(self) -> f64 {
         match self {
-            Precision::F64 => f64::EPSILON,         // 2^-52
-            Precision::F32 => f32::EPSILON.into(),  // 2^-23
-            Precision::F16Storage => 1.0 / 1024.0,  // 2^-10
+            Precision::F64 => f64::EPSILON,        // 2^-52
+            Precision::F32 => f32::EPSILON.into(), // 2^-23
+            Precision::F16Storage => 1.0 / 1024.0, // 2^-10
         }
     }
 

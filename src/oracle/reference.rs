@@ -76,7 +76,8 @@ impl Candidate for Oracle {
     }
 
     fn solid_fractions(&mut self, problem: &Spheres) -> Option<Answers> {
-        let fraction = |(offset, radius): &(Vec3, f64)| CoverageRule::Exact.fraction(offset, *radius);
+        let fraction =
+            |(offset, radius): &(Vec3, f64)| CoverageRule::Exact.fraction(offset, *radius);
         let fractions = problem.spheres.iter().map(fraction).collect();
         Some(Answers::new().with("solid_fraction", Array::list(fractions)))
     }
@@ -119,7 +120,8 @@ impl Candidate for Oracle {
             let relative = Relative::new(&geometry, [&pair.motions[0], &pair.motions[1]]);
             let mut memory = Some(pair.springs);
             let ways = [&relative, &relative];
-            let force = contact_force(&pair.law, &geometry, ways, 0.0, &mut memory).unwrap_or_default();
+            let force =
+                contact_force(&pair.law, &geometry, ways, 0.0, &mut memory).unwrap_or_default();
             forces.push(force.force);
             torques.extend(force.torques.iter().flat_map(|torque| [torque.x, torque.y, torque.z]));
         }

@@ -20,7 +20,10 @@ impl fmt::Display for Verdict {
             precision.name(),
             precision.epsilon()
         )?;
-        writeln!(out, "  stage                              answers  right  wrong  largest error  verdict")?;
+        writeln!(
+            out,
+            "  stage                              answers  right  wrong  largest error  verdict"
+        )?;
         for (stage, title) in STAGES.iter().enumerate() {
             let of: Vec<&Judged> = judged.iter().filter(|judged| judged.stage == stage).collect();
             let tried = of.iter().filter(|j| j.outcome != Outcome::NotAttempted).count();
@@ -28,7 +31,9 @@ impl fmt::Display for Verdict {
             let largest = of.iter().filter_map(|j| error(&j.outcome)).fold(0.0, f64::max);
             let verdict = match (tried, failed) {
                 (0, _) => "not attempted".to_owned(),
-                (_, 0) if tried < of.len() => format!("passed ({} not attempted)", of.len() - tried),
+                (_, 0) if tried < of.len() => {
+                    format!("passed ({} not attempted)", of.len() - tried)
+                }
                 (_, 0) => "passed".to_owned(),
                 _ => "FAILED".to_owned(),
             };
@@ -67,12 +72,23 @@ impl fmt::Display for Diagnosis {
         if let [first, rest @ ..] = &self.single[..] {
             let entry = first.mistake.entry();
             writeln!(out, "diagnosis: {}", entry.name)?;
-            writeln!(out, "  {}; with this mistake alone all wrong answers come out as yours", entry.what)?;
+            writeln!(
+                out,
+                "  {}; with this mistake alone all wrong answers come out as yours",
+                entry.what
+            )?;
             writeln!(out, "  look at: {}", entry.look_at)?;
             if !first.contradicted.is_empty() {
-                let list: Vec<String> =
-                    first.contradicted.iter().map(|(problem, answer)| format!("{problem}/{answer}")).collect();
-                writeln!(out, "  it would have changed these too, which you have right: {}", list.join(", "))?;
+                let list: Vec<String> = first
+                    .contradicted
+                    .iter()
+                    .map(|(problem, answer)| format!("{problem}/{answer}"))
+                    .collect();
+                writeln!(
+                    out,
+                    "  it would have changed these too, which you have right: {}",
+                    list.join(", ")
+                )?;
             }
             for fit in rest {
                 let entry = fit.mistake.entry();
@@ -81,7 +97,9 @@ impl fmt::Display for Diagnosis {
             return Ok(());
         }
         writeln!(out, "diagnosis: no single mistake of the catalogue explains all wrong answers")?;
-        for (problem, mistakes) in self.by_problem.iter().filter(|(_, mistakes)| !mistakes.is_empty()) {
+        for (problem, mistakes) in
+            self.by_problem.iter().filter(|(_, mistakes)| !mistakes.is_empty())
+        {
             writeln!(out, "  {problem} by itself:")?;
             for mistake in mistakes {
                 let entry = mistake.entry();
@@ -145,8 +163,11 @@ impl Verdict {
 fn to_json(diagnosis: &Diagnosis) -> Value {
     let single = diagnosis.single.iter().map(|fit| {
         let entry = fit.mistake.entry();
-        let contradicted: Vec<String> =
-            fit.contradicted.iter().map(|(problem, answer)| format!("{problem}/{answer}")).collect();
+        let contradicted: Vec<String> = fit
+            .contradicted
+            .iter()
+            .map(|(problem, answer)| format!("{problem}/{answer}"))
+            .collect();
         json!({
             "mistake": entry.name, "what": entry.what, "look_at": entry.look_at,
             "contradicted": contradicted,

@@ -81,12 +81,14 @@ fn in_moments(found: &[f64], right: &[f64], gauges: &[f64], epsilon: f64) -> Opt
                 let i = cell * Q + a;
                 (matrix[(k, a)] * (found[i] - right[i]), matrix[(k, a)].abs() * gauges[i])
             });
-            let (difference, gauge) = terms.fold((0.0, 0.0), |sum, term| (sum.0 + term.0, sum.1 + term.1));
+            let (difference, gauge) =
+                terms.fold((0.0, 0.0), |sum, term| (sum.0 + term.0, sum.1 + term.1));
             difference.abs() > LIMIT * epsilon * gauge
         })
     };
     let names: Vec<String> = (0..Q).filter(|&k| off(k)).map(|k| NAMES[k].to_owned()).collect();
-    let conserved = ["rho", "jx", "jy", "jz"].iter().filter(|&&name| !names.iter().any(|n| n == name));
+    let conserved =
+        ["rho", "jx", "jy", "jz"].iter().filter(|&&name| !names.iter().any(|n| n == name));
     let conserved: Vec<&str> = conserved.copied().collect();
     match (names.len(), conserved.len()) {
         (Q | 0, _) => None,
@@ -119,7 +121,8 @@ fn in_cells(problem: &Problem, expected: &Expected, bad: &[usize]) -> Option<Str
         (0..3).any(|axis| !domain.is_periodic(axis) && (x[axis] == 0 || x[axis] + 1 == n[axis]))
     };
     let walled = (0..3).any(|axis| !domain.is_periodic(axis));
-    (walled && bad.iter().all(beside)).then(|| "only in cells beside faces that are not periodic".to_owned())
+    (walled && bad.iter().all(beside))
+        .then(|| "only in cells beside faces that are not periodic".to_owned())
 }
 
 /// A common factor between what was found and what is right.
@@ -130,7 +133,10 @@ fn factor(found: &[f64], right: &[f64], gauges: &[f64], epsilon: f64) -> Option<
         return None;
     }
     let fits = |i: usize| {
-        ratio(found[i], factor * right[i], gauges[i] * factor.abs().max(1.0)) <= 4.0 * LIMIT * epsilon
+        ratio(found[i], factor * right[i], gauges[i] * factor.abs().max(1.0))
+            <= 4.0 * LIMIT * epsilon
     };
-    (0..right.len()).all(fits).then(|| format!("all values are {factor:.6} times what they should be"))
+    (0..right.len())
+        .all(fits)
+        .then(|| format!("all values are {factor:.6} times what they should be"))
 }

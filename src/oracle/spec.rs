@@ -86,7 +86,11 @@ pub fn answer_specs(task: &Task) -> Vec<AnswerSpec> {
         Task::Scene(scene) => {
             let [nx, ny, nz] = scene.setup.domain.cells();
             let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len());
-            scene.wanted.iter().flat_map(|wanted| wanted_answers(wanted, [nx, ny, nz], solids)).collect()
+            scene
+                .wanted
+                .iter()
+                .flat_map(|wanted| wanted_answers(wanted, [nx, ny, nz], solids))
+                .collect()
         }
         Task::Contacts(task) => {
             let pairs = ("pair", task.pairs.len());
@@ -112,7 +116,11 @@ fn wanted_answers(wanted: &Wanted, [nx, ny, nz]: [usize; 3], solids: usize) -> V
         }
         Wanted::Loads => vec![
             answer("force", "force of the fluid on each solid", &[solid, vector]),
-            answer("torque", "torque of the fluid on each solid about its centre", &[solid, vector]),
+            answer(
+                "torque",
+                "torque of the fluid on each solid about its centre",
+                &[solid, vector],
+            ),
         ],
         Wanted::Profile => vec![answer("velocity_profile", "u_x at x = 0, z = 0", &[("y", ny)])],
         Wanted::ShearViscosity { .. } => vec![answer("viscosity", "cells^2/step", &[])],

@@ -24,7 +24,12 @@ pub(super) type SolidHere = (f64, Gauged3);
 
 impl Model {
     /// Populations after the collision of a cell, and the force on each of its solids.
-    pub(super) fn collide(&self, f: &Cell, rules: &Rules, solids: &[SolidHere]) -> (Cell, Vec<Gauged3>) {
+    pub(super) fn collide(
+        &self,
+        f: &Cell,
+        rules: &Rules,
+        solids: &[SolidHere],
+    ) -> (Cell, Vec<Gauged3>) {
         let (rho, j) = conserved(f);
         let bare = j.map(|j| j / rho);
         let g = rules.body_force.as_ref().map(vector);
@@ -39,7 +44,11 @@ impl Model {
         let epsilons: Vec<f64> = solids.iter().map(|solid| solid.0).collect();
         let (weights, total) = self.share(&epsilons, tau);
         let u_solid = if self.has(Mistake::SolidWithHalfForce) { u } else { bare };
-        let fluid = if self.has(Mistake::FluidPartNotWeighted) { 1.0.into() } else { Gauged::from(1.0) - total };
+        let fluid = if self.has(Mistake::FluidPartNotWeighted) {
+            1.0.into()
+        } else {
+            Gauged::from(1.0) - total
+        };
         let mut post = plus(*f, times(omega, fluid));
         if let Some(source) = source {
             let in_full = self.has(Mistake::BodyForceNotWeighted);
@@ -119,9 +128,11 @@ impl Model {
     ) -> Cell {
         let u_p = if self.has(Mistake::SolidAtRest) { Gauged3::default() } else { u_p };
         let (f_eq, solid) = (self.equilibrium(rho, u), self.equilibrium(rho, u_p));
-        let superposition = (operator == SolidOperator::Superposition) != self.has(Mistake::OtherOperator);
+        let superposition =
+            (operator == SolidOperator::Superposition) != self.has(Mistake::OtherOperator);
         if superposition {
-            if let (true, Collision::Mrt { rates }) = (self.has(Mistake::SuperpositionTau), &rules.collision)
+            if let (true, Collision::Mrt { rates }) =
+                (self.has(Mistake::SuperpositionTau), &rules.collision)
             {
                 let left = 1.0 - rates.nu;
                 return std::array::from_fn(|a| solid[a] - f[a] + (f[a] - f_eq[a]) * left);

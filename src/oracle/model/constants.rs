@@ -22,7 +22,9 @@ pub(super) fn weights(mistake: Option<Mistake>) -> [f64; Q] {
         Some(Mistake::WeightsSwapped) => (1.0 / 36.0, 1.0 / 18.0),
         _ => (1.0 / 18.0, 1.0 / 36.0),
     };
-    std::array::from_fn(|a| [1.0 / 3.0, face, edge][if a == 0 { 0 } else { square(a).min(2) as usize }])
+    std::array::from_fn(|a| {
+        [1.0 / 3.0, face, edge][if a == 0 { 0 } else { square(a).min(2) as usize }]
+    })
 }
 
 /// The matrix `M`.
@@ -179,7 +181,8 @@ impl Model {
     /// The weights of the solids of a cell and their sum, that of the cell.
     pub(super) fn share(&self, epsilons: &[f64], tau: f64) -> (Vec<Gauged>, Gauged) {
         if self.has(Mistake::WeightsNotShared) {
-            let weights: Vec<Gauged> = epsilons.iter().map(|&e| self.weight(e.into(), tau)).collect();
+            let weights: Vec<Gauged> =
+                epsilons.iter().map(|&e| self.weight(e.into(), tau)).collect();
             let sum: Gauged = weights.iter().copied().sum();
             let total = Gauged { value: sum.value.min(1.0), gauge: sum.gauge };
             return (weights, total);
@@ -205,9 +208,11 @@ impl Model {
         // Entries of M and S-hat that cancel to 0 may be computed as sums of terms of the size of 1.
         let near = |value: f64| Gauged { value, gauge: value.abs().max(1.0) };
         let directions: Vec<Gauged> = C.iter().flat_map(|c| given(c.map(f64::from))).collect();
-        let opposites: Vec<Gauged> = self.opposite.iter().map(|&a| Gauged::from(a as f64)).collect();
+        let opposites: Vec<Gauged> =
+            self.opposite.iter().map(|&a| Gauged::from(a as f64)).collect();
         let matrix: Vec<Gauged> = self.matrix.iter().flatten().map(|&value| near(value)).collect();
-        let tau: Vec<Gauged> = problem.viscosities.iter().map(|&nu| self.relaxation_time(nu)).collect();
+        let tau: Vec<Gauged> =
+            problem.viscosities.iter().map(|&nu| self.relaxation_time(nu)).collect();
         GaugedAnswers::default()
             .with("directions", &[Q, 3], &directions)
             .with("weights", &[Q], &given(self.weights))
@@ -263,7 +268,8 @@ impl Model {
         let settling = if self.has(Mistake::SettlingReynoldsPrinted) { 0.3 } else { d * v / nu };
         let [count, diameter, porosity, x, y] = problem.bed;
         let spheres = count * std::f64::consts::PI / 6.0 * diameter.powi(3);
-        let length = if self.has(Mistake::BedIsACube) { x } else { spheres / ((1.0 - porosity) * x * y) };
+        let length =
+            if self.has(Mistake::BedIsACube) { x } else { spheres / ((1.0 - porosity) * x * y) };
         GaugedAnswers::default()
             .with("drag_coefficient", &[drag.len()], &drag)
             .with("settling_reynolds", &[], &[settling.into()])

@@ -76,8 +76,10 @@ impl Model {
         let (forces, torques): (Vec<Gauged3>, Vec<[Gauged3; 2]>) =
             problem.pairs.iter().map(contact).unzip();
         let n = problem.pairs.len();
-        GaugedAnswers::default()
-            .with("force", &[n, 3], forces.as_flattened())
-            .with("torque", &[n, 2, 3], torques.as_flattened().as_flattened())
+        GaugedAnswers::default().with("force", &[n, 3], forces.as_flattened()).with(
+            "torque",
+            &[n, 2, 3],
+            torques.as_flattened().as_flattened(),
+        )
     }
 }

@@ -59,9 +59,17 @@ impl Model {
     }
 
     /// Bounce-back at a wall.
-    fn bounced(&self, domain: &Domain, post: &[Cell], x: [usize; 3], a: usize, velocity: &Vec3) -> Gauged {
+    fn bounced(
+        &self,
+        domain: &Domain,
+        post: &[Cell],
+        x: [usize; 3],
+        a: usize,
+        velocity: &Vec3,
+    ) -> Gauged {
         let here = &post[domain.index(x)];
-        let rho = if self.has(Mistake::MovingWallDensityOne) { 1.0.into() } else { conserved(here).0 };
+        let rho =
+            if self.has(Mistake::MovingWallDensityOne) { 1.0.into() } else { conserved(here).0 };
         let factor = match self.mistake {
             Some(Mistake::MovingWallWithoutTwo) => 3.0,
             Some(Mistake::MovingWallSign) => -6.0,

@@ -101,12 +101,13 @@ fn opposite(a: usize, mistake: Option<Mistake>, order: &DirectionOrder) -> usize
     match mistake {
         Some(Mistake::OppositesInPairs) => {
             // Its neighbour among the eighteen that move: 1-2, 3-4, ...
-            let moving: Vec<usize> = (0..Q).map(|own| order.in_kit(own)).filter(|&a| a != 0).collect();
+            let moving: Vec<usize> =
+                (0..Q).map(|own| order.in_kit(own)).filter(|&a| a != 0).collect();
             moving.iter().position(|&own| own == a).map_or(0, |own| moving[own ^ 1])
         }
         Some(Mistake::OppositesMirrored) => {
             let mut c = C[a];
-            if let Some(component) = c.iter_mut().find(|component| **component != 0) {
+            if let Some(component) = c.iter_mut().rev().find(|component| **component != 0) {
                 *component = -*component;
             }
             number_of(c)

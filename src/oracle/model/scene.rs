@@ -54,7 +54,10 @@ impl Model {
             force.iter_mut().chain(torque).for_each(|number| number.gauge *= walk);
         }
         let none = GaugedAnswers::default();
-        scene.wanted.iter().fold(none, |answers, wanted| self.observe(scene, &state, wanted, answers))
+        scene
+            .wanted
+            .iter()
+            .fold(none, |answers, wanted| self.observe(scene, &state, wanted, answers))
     }
 
     /// The collision, with `tau` found from the viscosity where that is given.
@@ -175,7 +178,8 @@ impl Model {
             }
             Wanted::ShearViscosity { amplitude } => {
                 let (k, sines) = scene.shear_wave();
-                let sum: Gauged = sines.iter().enumerate().map(|(cell, &sine)| velocity(cell) * sine).sum();
+                let sum: Gauged =
+                    sines.iter().enumerate().map(|(cell, &sine)| velocity(cell) * sine).sum();
                 let now = sum * (2.0 / sines.len() as f64 / amplitude);
                 let per_step = -1.0 / (k * k * scene.steps as f64);
                 // d ln a = da/a

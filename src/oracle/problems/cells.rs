@@ -58,8 +58,20 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             &["mrt", "body_force"],
             Parts::new(true, true, None),
         ),
-        ("ps_srt", "PS-SRT", "Eqs. 4 and 5, corrected", &["srt", "solid"], Parts::new(false, false, solid)),
-        ("ps_mrt", "PS-MRT", "Eqs. 6 and 5, corrected", &["mrt", "solid"], Parts::new(true, false, solid)),
+        (
+            "ps_srt",
+            "PS-SRT",
+            "Eqs. 4 and 5, corrected",
+            &["srt", "solid"],
+            Parts::new(false, false, solid),
+        ),
+        (
+            "ps_mrt",
+            "PS-MRT",
+            "Eqs. 6 and 5, corrected",
+            &["mrt", "solid"],
+            Parts::new(true, false, solid),
+        ),
         (
             "ps_srt_force",
             "PS-SRT with a body force",
@@ -138,7 +150,8 @@ fn cells(seed: u64, parts: &Parts) -> Result<Vec<CollidingCell>, RateError> {
     for number in 0..CELLS {
         let f = random.populations();
         // From both sides of 1, at which a missing 1/tau would not show.
-        let tau = if number % 2 == 0 { random.between(0.55, 0.85) } else { random.between(1.2, 2.0) };
+        let tau =
+            if number % 2 == 0 { random.between(0.55, 0.85) } else { random.between(1.2, 2.0) };
         let collision = match (parts.mrt, number) {
             (false, _) => Collision::Srt { tau },
             (true, 0..2) => Collision::Mrt { rates: Rates::dhumieres(tau)? },
@@ -152,7 +165,12 @@ fn cells(seed: u64, parts: &Parts) -> Result<Vec<CollidingCell>, RateError> {
             _ => random.between(0.05, 0.95),
         };
         let u_p = random.vector(0.05);
-        cells.push(CollidingCell { f, collision, body_force, solid: parts.solid.map(|_| (epsilon, u_p)) });
+        cells.push(CollidingCell {
+            f,
+            collision,
+            body_force,
+            solid: parts.solid.map(|_| (epsilon, u_p)),
+        });
     }
     Ok(cells)
 }

@@ -25,7 +25,15 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
     };
     Ok(vec![
         contact("contact_smooth", "smooth spheres", &[], false, false, false, 600)?,
-        contact("contact_friction", "spheres with friction", &["friction"], false, true, false, 601)?,
+        contact(
+            "contact_friction",
+            "spheres with friction",
+            &["friction"],
+            false,
+            true,
+            false,
+            601,
+        )?,
         contact(
             "contact_rolling",
             "spheres with friction and rolling resistance",
@@ -35,7 +43,15 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             true,
             602,
         )?,
-        contact("contact_plane", "spheres on planes", &["friction", "plane"], true, true, false, 603)?,
+        contact(
+            "contact_plane",
+            "spheres on planes",
+            &["friction", "plane"],
+            true,
+            true,
+            false,
+            603,
+        )?,
     ])
 }
 
@@ -55,7 +71,8 @@ fn pairs(
             stiffness: random.between(25.0, 35.0),
             damping: random.between(1.0, 2.0),
         });
-        law.rolling = rolling.then_some(Rolling { coefficient: 0.2, stiffness: 40.0, damping: 2.0 });
+        law.rolling =
+            rolling.then_some(Rolling { coefficient: 0.2, stiffness: 40.0, damping: 2.0 });
         let direction = random.vector(1.0).normalize();
         let overlap = 0.05 * (radii[0] + radii[1]);
         let offset = direction * (radii[0] + radii[1] - overlap);

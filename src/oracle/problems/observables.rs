@@ -104,7 +104,7 @@ fn shear_wave(mrt: bool) -> Result<Task, MakeError> {
     let k = std::f64::consts::TAU / n as f64;
     let scene = from_equilibrium(
         Setup::fluid(domain, collision),
-        40,
+        30,
         Wanted::ShearViscosity { amplitude },
         |centre| Vec3::new(amplitude * (k * centre.y).sin(), 0.0, 0.0),
     )?;
@@ -113,19 +113,19 @@ fn shear_wave(mrt: bool) -> Result<Task, MakeError> {
 
 fn poiseuille() -> Result<Task, MakeError> {
     let faces = Faces { y: [Face::wall(); 2], ..Faces::PERIODIC };
-    let domain = Domain::new([1, 6, 1], faces)?;
+    let domain = Domain::new([1, 4, 1], faces)?;
     let collision = Collision::Mrt { rates: Rates::magic(1.4, 3.0 / 16.0)? };
-    let setup = Setup::fluid(domain, collision).with_body_force(Vec3::new(2e-3, 0.0, 0.0));
-    let scene = from_equilibrium(setup, 400, Wanted::Profile, |_| Vec3::zeros())?;
+    let setup = Setup::fluid(domain, collision).with_body_force(Vec3::new(4e-3, 0.0, 0.0));
+    let scene = from_equilibrium(setup, 150, Wanted::Profile, |_| Vec3::zeros())?;
     Ok(Task::Scene(Box::new(scene)))
 }
 
 fn couette() -> Result<Task, MakeError> {
     let moving = Face::Wall { velocity: Vec3::new(0.1, 0.0, 0.0) };
     let faces = Faces { y: [Face::wall(), moving], ..Faces::PERIODIC };
-    let domain = Domain::new([1, 6, 1], faces)?;
+    let domain = Domain::new([1, 4, 1], faces)?;
     let setup = Setup::fluid(domain, Collision::Srt { tau: 1.4 });
-    let scene = from_equilibrium(setup, 300, Wanted::Profile, |_| Vec3::zeros())?;
+    let scene = from_equilibrium(setup, 150, Wanted::Profile, |_| Vec3::zeros())?;
     Ok(Task::Scene(Box::new(scene)))
 }
 
@@ -136,6 +136,6 @@ fn sphere_array() -> Result<Task, MakeError> {
     let setup = Setup::fluid(domain, collision)
         .with_body_force(Vec3::new(1e-3, 0.0, 0.0))
         .with_solids(SolidPhase { solids, ..SolidPhase::default() });
-    let scene = from_equilibrium(setup, 60, Wanted::Drag, |_| Vec3::zeros())?;
+    let scene = from_equilibrium(setup, 40, Wanted::Drag, |_| Vec3::zeros())?;
     Ok(Task::Scene(Box::new(scene)))
 }

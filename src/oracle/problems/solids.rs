@@ -96,7 +96,13 @@ fn one_step(
     let mut setup = Setup::fluid(domain, Collision::Mrt { rates }).with_solids(phase);
     setup.body_force = body_force;
     let wanted = vec![Wanted::Loads];
-    Ok(Task::Scene(Box::new(Scene { setup, populations, steps: 1, wanted, viscosity_given: false })))
+    Ok(Task::Scene(Box::new(Scene {
+        setup,
+        populations,
+        steps: 1,
+        wanted,
+        viscosity_given: false,
+    })))
 }
 
 /// A sphere that moves and spins.

@@ -39,7 +39,10 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             "velocity inlet at -y, pressure at +y",
             "inlet: as a wall of that velocity; pressure: f_a = -f*_-a + 2 w_a rho_w (1 + 9/2 (c_a.u)^2 - 3/2 u^2)",
             &["inlet", "pressure"],
-            Faces { y: [inlet(0.01, 0.04, -0.02), Face::Pressure { density: 1.02 }], ..Faces::PERIODIC },
+            Faces {
+                y: [inlet(0.01, 0.04, -0.02), Face::Pressure { density: 1.02 }],
+                ..Faces::PERIODIC
+            },
         ),
         (
             "inlet_outflow",

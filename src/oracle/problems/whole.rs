@@ -45,10 +45,12 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
     let still = [0.0; 3];
     let scenes: [(_, _, &[_], _); 8] = [
         ("box_srt", "periodic box, SRT", &["srt"], Parts { mrt: false, ..Parts::default() }),
-        ("box_mrt", "periodic box, MRT with a body force", &["mrt", "body_force"], Parts {
-            body_force: force,
-            ..Parts::default()
-        }),
+        (
+            "box_mrt",
+            "periodic box, MRT with a body force",
+            &["mrt", "body_force"],
+            Parts { body_force: force, ..Parts::default() },
+        ),
         (
             "channel",
             "channel between a resting and a moving wall, MRT with a body force",
@@ -125,7 +127,12 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             &["mrt", "solid", "spin", "moving_solid", "exact_coverage", "periodic_image"],
             Parts {
                 cells: [6, 5, 5],
-                solids: vec![sphere([4.6, 2.4, 2.6], 1.5, [0.06, -0.03, 0.02], [0.02, 0.01, -0.03])],
+                solids: vec![sphere(
+                    [4.6, 2.4, 2.6],
+                    1.5,
+                    [0.06, -0.03, 0.02],
+                    [0.02, 0.01, -0.03],
+                )],
                 ..Parts::default()
             },
         ),
@@ -164,5 +171,11 @@ fn scene(seed: u64, parts: Parts) -> Result<Task, MakeError> {
         let (solids, operator) = (parts.solids, parts.operator);
         setup.solid_phase = Some(SolidPhase { solids, operator, ..SolidPhase::default() });
     }
-    Ok(Task::Scene(Box::new(Scene { setup, populations, steps: STEPS, wanted, viscosity_given: false })))
+    Ok(Task::Scene(Box::new(Scene {
+        setup,
+        populations,
+        steps: STEPS,
+        wanted,
+        viscosity_given: false,
+    })))
 }
