@@ -266,3 +266,103 @@ fn two_mistakes_at_once_are_explained_problem_by_problem() {
     assert_eq!(of("walls"), ["wall_on_node"]);
     assert_eq!(of("ps_mrt"), ["force_sign"]);
 }
+
+/// The findings on one answer of the oracle after `spoil` has changed its values.
+fn findings(problem: &str, answer: &str, spoil: impl Fn(&mut [f64])) -> String {
+    let kit = Kit::make().unwrap();
+    let submission = Submission::gather(&kit, |asked| {
+        let solved = kit.problems.iter().find(|solved| solved.problem.id == asked.id)?;
+        let expected = solved.expected.iter().find(|expected| expected.spec.name == answer)?;
+        let mut array = expected.values.clone();
+        spoil(&mut array.values);
+        (asked.id == problem).then(|| Answers::new().with(answer, array))
+    });
+    let diagnosis = judge_submission(&kit, &submission).diagnosis.unwrap();
+    assert!(diagnosis.single.is_empty(), "{diagnosis}");
+    assert_eq!((diagnosis.places.len(), diagnosis.places[0].problem), (1, problem));
+    diagnosis.places[0].findings.join("; ")
+}
+
+#[test]
+fn error_that_no_mistake_explains_is_placed_in_moments_directions_and_cells() {
+    // The direction -x of the first cell.
+    let direction = findings("srt", "post", |f| f[2] *= 1.001);
+    for words in ["1 of 152 values", "only at cell 0", "only at direction 2 (-1+0+0)"] {
+        assert!(direction.contains(words), "{direction}");
+    }
+    // The moment q_x of all cells, whose row of M has the squared length 40.
+    let matrix = psmrt_reference::moments::moment_matrix();
+    let moment = findings("mrt", "post", |f| {
+        f.iter_mut().enumerate().for_each(|(i, f)| *f += 1e-3 * matrix[(4, i % Q)] / 40.0);
+    });
+    assert!(moment.contains("in the moments qx; mass and momentum are right"), "{moment}");
+    // Cells 0 and 1 are bare and full: in the kit's PS problems the rest has solid in it.
+    let solid = findings("ps_srt", "post", |f| f[Q..].iter_mut().for_each(|f| *f += 1e-3));
+    assert!(solid.contains("only in cells with solid in them"), "{solid}");
+    // 4 x 3 x 5 cells with walls across y: y = 1 is the only row not beside them.
+    let faces = findings("walls", "populations", |f| {
+        let row = |cell: usize| cell / 4 % 3;
+        f.iter_mut().enumerate().filter(|(i, _)| row(i / Q) != 1).for_each(|(_, f)| *f += 1e-3);
+    });
+    assert!(faces.contains("only in cells beside faces that are not periodic"), "{faces}");
+    assert!(faces.contains("only at y 0, 2"), "{faces}");
+    let factor = findings("sphere_at_rest", "force", |f| f.iter_mut().for_each(|f| *f *= 0.7));
+    assert!(factor.contains("all values are 0.700000 times what they should be"), "{factor}");
+}
+
+#[test]
+fn wrong_shapes_and_names_from_an_engine_are_a_verdict_with_its_reason() {
+    struct Careless;
+    impl Candidate for Careless {
+        fn name(&self) -> String {
+            "careless".to_owned()
+        }
+        fn weights(&mut self, _: &psmrt::oracle::task::SolidCells) -> Option<Answers> {
+            let array = psmrt::oracle::Array::number(1.0);
+            Some(Answers::new().with("weight", array.clone()).with("wieght", array))
+        }
+    }
+    let verdict = judge(&mut Careless).unwrap();
+    assert!(!verdict.passed() && verdict.diagnosis.is_none());
+    assert_eq!(verdict.unasked, ["weights/wieght"]);
+    let text = verdict.to_string();
+    assert!(text.contains("weights/weight: its shape is [], asked is [25] (cell)"), "{text}");
+    struct Silent;
+    impl Candidate for Silent {
+        fn name(&self) -> String {
+            "silent".to_owned()
+        }
+    }
+    // Nothing attempted is nothing passed.
+    assert!(!judge(&mut Silent).unwrap().passed());
+}
+
+#[test]
+fn model_of_the_diagnosis_shares_no_arithmetic_with_the_reference() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/oracle/model");
+    let mut files = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        // Modules of the reference that compute what the model computes for itself.
+        for module in [
+            "equilibrium",
+            "forcing",
+            "boundary",
+            "streaming",
+            "solver",
+            "cell_collision",
+            "grains",
+        ] {
+            let mention = format!("psmrt_reference::{module}");
+            assert!(!text.contains(&mention), "{} uses {mention}", path.display());
+        }
+        for name in
+            ["CollisionOperator", "share_weight", "OPPOSITE", "velocity_at(&arm)", "lattice::W"]
+        {
+            assert!(!text.contains(name), "{} uses {name}", path.display());
+        }
+        files += 1;
+    }
+    assert_eq!(files, 6);
+}

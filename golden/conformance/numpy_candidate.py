@@ -28,8 +28,11 @@ AXES = {name: (axis, side) for axis, pair in enumerate(("-x +x", "-y +y", "-z +z
         for side, name in enumerate(pair.split())}
 
 
+NUMBERS = {tuple(c): a for a, c in enumerate(C.tolist())}
+
+
 def number_of(c):
-    return int(np.flatnonzero((C == c).all(axis=1))[0])
+    return NUMBERS[tuple(int(component) for component in c)]
 
 
 def raw_moments():
@@ -238,12 +241,13 @@ class Candidate:
         periodic = [faces["-" + axis]["kind"] == "periodic" for axis in "xyz"]
         for i, place in enumerate(places):
             for a in range(Q):
-                source, turned = [p + sign * c for p, c in zip(place, directions[a])], C[a].copy()
-                wall, density = None, None
+                x, y, z = directions[a]
+                source = [place[0] + sign * x, place[1] + sign * y, place[2] + sign * z]
                 near = index.get(tuple(source))
                 if near is not None:  # crosses no face
                     links["cell"][i, a], links["from"][i, a] = near, a
                     continue
+                turned, wall, density = [x, y, z], None, None
                 for name, (axis, side) in AXES.items():
                     if not (source[axis] < 0 if side == 0 else source[axis] >= n[axis]):
                         continue

@@ -55,7 +55,7 @@ impl FilesError {
         FilesError::Io { path: path.display().to_string(), error }
     }
 
-    pub(super) fn bad(path: &Path, problem: impl ToString, remedy: &str) -> Self {
+    pub(super) fn bad(path: &Path, problem: &dyn std::fmt::Display, remedy: &str) -> Self {
         let (path, problem) = (path.display().to_string(), problem.to_string());
         FilesError::Bad { path, problem, remedy: remedy.to_owned() }
     }
@@ -142,7 +142,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, FilesError> {
 /// Reads an array.
 pub(super) fn read_array(path: &Path) -> Result<Array, FilesError> {
     let bytes = read_bytes(path)?;
-    npy::read(&bytes).map_err(|error| FilesError::bad(path, error, EXPORT_ANEW))
+    npy::read(&bytes).map_err(|error| FilesError::bad(path, &error, EXPORT_ANEW))
 }
 
 /// Reads the manifest of a kit of this version.
@@ -150,12 +150,12 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, FilesError> {
     let path = folder.join("manifest.json");
     let text = fs::read_to_string(&path).map_err(|error| FilesError::io(&path, error))?;
     let found: serde_json::Value =
-        serde_json::from_str(&text).map_err(|error| FilesError::bad(&path, error, EXPORT_ANEW))?;
+        serde_json::from_str(&text).map_err(|error| FilesError::bad(&path, &error, EXPORT_ANEW))?;
     if found["format"] != FORMAT {
         let problem = "it is not the manifest of a kit";
         return Err(FilesError::bad(
             &path,
-            problem,
+            &problem,
             "name the folder that `psmrt oracle export` made",
         ));
     }
@@ -164,11 +164,11 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, FilesError> {
             format!("kit_version = {}, this psmrt judges {KIT_VERSION}", found["kit_version"]);
         return Err(FilesError::bad(
             &path,
-            problem,
+            &problem,
             "export the kit anew, or take the psmrt that made it",
         ));
     }
-    serde_json::from_value(found).map_err(|error| FilesError::bad(&path, error, EXPORT_ANEW))
+    serde_json::from_value(found).map_err(|error| FilesError::bad(&path, &error, EXPORT_ANEW))
 }
 
 /// Errors unless the kit in `folder` is what this program makes, up to what machines may differ in.
@@ -177,7 +177,7 @@ pub fn verify(kit: &Kit, folder: &Path) -> Result<(), FilesError> {
     read_manifest(folder)?;
     let path = folder.join("manifest.json");
     if read_bytes(&path)? != json_bytes(&serde_json::json!(own)) {
-        return Err(FilesError::bad(&path, "it is not as this psmrt writes it", EXPORT_ANEW));
+        return Err(FilesError::bad(&path, &"it is not as this psmrt writes it", EXPORT_ANEW));
     }
     let arrays = arrays(kit, &own);
     let take = |path: &str| Ok(arrays.get(path).cloned().unwrap_or_default());
@@ -191,7 +191,7 @@ pub fn compare_folders(one: &Path, two: &Path) -> Result<f64, FilesError> {
     let path = two.join("manifest.json");
     if read_bytes(&path)? != read_bytes(&one.join("manifest.json"))? {
         let problem = format!("it is not that of {}", one.display());
-        return Err(FilesError::bad(&path, problem, EXPORT_ANEW));
+        return Err(FilesError::bad(&path, &problem, EXPORT_ANEW));
     }
     compare(&manifest, |path| read_array(&one.join(path)), two)
 }
@@ -228,7 +228,7 @@ fn compare_array(
     };
     if found.shape != right.shape || gauges.shape != right.shape {
         let problem = format!("its shape is {:?}, not {:?}", found.shape, right.shape);
-        return Err(FilesError::bad(&path, problem, EXPORT_ANEW));
+        return Err(FilesError::bad(&path, &problem, EXPORT_ANEW));
     }
     let mut largest: f64 = 0.0;
     for (i, &value) in found.values.iter().enumerate() {
@@ -239,7 +239,7 @@ fn compare_array(
                  {KIT_LIMIT} is allowed between machines",
                 right.values[i]
             );
-            return Err(FilesError::bad(&path, problem, EXPORT_ANEW));
+            return Err(FilesError::bad(&path, &problem, EXPORT_ANEW));
         }
         largest = largest.max(error);
     }

@@ -23,7 +23,7 @@ pub fn read(kit: &Kit, folder: &Path) -> Result<Submission, FilesError> {
         Some(directions) => DirectionOrder::new(directions).map_err(|error| {
             FilesError::bad(
                 &path,
-                error,
+                &error,
                 "list all nineteen as [x, y, z] in your order, or leave it out",
             )
         })?,
@@ -54,12 +54,12 @@ fn manifest(path: &Path) -> Result<CandidateManifest, FilesError> {
     let remedy = "write e.g. {\"name\": \"my code\", \"precision\": \"f32\", \"kit_version\": 1}: see \
                   candidate.schema.json in the kit";
     let text = fs::read_to_string(path)
-        .map_err(|error| FilesError::bad(path, format!("it cannot be read ({error})"), remedy))?;
+        .map_err(|error| FilesError::bad(path, &format!("it cannot be read ({error})"), remedy))?;
     let manifest: CandidateManifest =
-        serde_json::from_str(&text).map_err(|error| FilesError::bad(path, error, remedy))?;
+        serde_json::from_str(&text).map_err(|error| FilesError::bad(path, &error, remedy))?;
     if manifest.kit_version != KIT_VERSION {
         let problem = format!("kit_version = {}, the kit's is {KIT_VERSION}", manifest.kit_version);
-        return Err(FilesError::bad(path, problem, "answer the kit of this version"));
+        return Err(FilesError::bad(path, &problem, "answer the kit of this version"));
     }
     Ok(manifest)
 }

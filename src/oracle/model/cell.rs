@@ -85,10 +85,10 @@ impl Model {
                 std::array::from_fn(|a| (f_eq[a] - f[a]) * rate)
             }
             Collision::Mrt { rates } => {
-                let (m, m_eq) = (product(&self.matrix, f), self.equilibrium_moments(rho, u));
+                let (m, m_eq) = (product(&self.columns, f), self.equilibrium_moments(rho, u));
                 let s_hat = self.s_hat(rates);
                 let change = std::array::from_fn(|k| (m_eq[k] - m[k]) * s_hat[k]);
-                product(&self.inverse, &change)
+                product(&self.inverse_columns, &change)
             }
         }
     }
@@ -111,8 +111,11 @@ impl Model {
                 source.map(|value| value * (1.0 - 0.5 * rate))
             }
             Collision::Mrt { rates } => {
-                let (m, s_hat) = (product(&self.matrix, &source), self.s_hat(rates));
-                product(&self.inverse, &std::array::from_fn(|k| m[k] * (1.0 - 0.5 * s_hat[k])))
+                let (m, s_hat) = (product(&self.columns, &source), self.s_hat(rates));
+                product(
+                    &self.inverse_columns,
+                    &std::array::from_fn(|k| m[k] * (1.0 - 0.5 * s_hat[k])),
+                )
             }
         }
     }

@@ -84,9 +84,22 @@ pub(super) fn inverse(matrix: &[[f64; Q]; Q]) -> [[f64; Q]; Q] {
     right
 }
 
-/// A matrix times the values of a cell.
-pub(super) fn product(matrix: &[[f64; Q]; Q], vector: &Cell) -> Cell {
-    std::array::from_fn(|row| (0..Q).map(|column| vector[column] * matrix[row][column]).sum())
+/// The transpose of a matrix: its columns.
+pub(super) fn columns(matrix: &[[f64; Q]; Q]) -> [[f64; Q]; Q] {
+    std::array::from_fn(|column| std::array::from_fn(|row| matrix[row][column]))
+}
+
+/// A matrix, given by its columns, times the values of a cell. (The entries of the matrix are given
+/// numbers, so values and gauges are plain sums.)
+pub(super) fn product(columns: &[[f64; Q]; Q], vector: &Cell) -> Cell {
+    let (mut values, mut gauges) = ([0.0; Q], [0.0; Q]);
+    for (column, number) in columns.iter().zip(vector) {
+        for row in 0..Q {
+            values[row] += column[row] * number.value;
+            gauges[row] += column[row].abs() * number.gauge;
+        }
+    }
+    std::array::from_fn(|row| Gauged { value: values[row], gauge: gauges[row] })
 }
 
 /// Direction `a` as given numbers.
@@ -132,7 +145,7 @@ impl Model {
     pub(super) fn equilibrium_moments(&self, rho: Gauged, u: Gauged3) -> Cell {
         let constant = self.has(Mistake::ConstantDensity);
         let f_eq = self.equilibrium_with(rho, u, if constant { rho } else { 1.0.into() });
-        let mut m_eq = product(&self.matrix, &f_eq);
+        let mut m_eq = product(&self.columns, &f_eq);
         if self.has(Mistake::OptimisedConstants) {
             m_eq[2] = rho * dot(u, u) * (-475.0 / 63.0);
             (m_eq[10], m_eq[12]) = (Gauged::default(), Gauged::default());
@@ -225,7 +238,7 @@ impl Model {
     pub(super) fn states(&self, problem: &States) -> GaugedAnswers {
         let cells: Vec<Cell> = problem.f.iter().map(|f| given(*f)).collect();
         let (rho, j): (Vec<Gauged>, Vec<Gauged3>) = cells.iter().map(conserved).unzip();
-        let moments: Vec<Cell> = cells.iter().map(|f| product(&self.matrix, f)).collect();
+        let moments: Vec<Cell> = cells.iter().map(|f| product(&self.columns, f)).collect();
         let at = || problem.at.iter().map(|(rho, u)| (Gauged::from(*rho), vector(u)));
         let f_eq: Vec<Cell> = at().map(|(rho, u)| self.equilibrium(rho, u)).collect();
         let m_eq: Vec<Cell> = at().map(|(rho, u)| self.equilibrium_moments(rho, u)).collect();

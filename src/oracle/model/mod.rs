@@ -50,7 +50,8 @@ pub struct Model {
     opposite: [usize; Q],
     /// `M`, rows are moments.
     matrix: [[f64; Q]; Q],
-    inverse: [[f64; Q]; Q],
+    columns: [[f64; Q]; Q],
+    inverse_columns: [[f64; Q]; Q],
 }
 
 impl Model {
@@ -70,7 +71,8 @@ impl Model {
             mistake,
             weights: constants::weights(mistake),
             opposite: std::array::from_fn(|a| opposite(a, mistake, order)),
-            inverse: constants::inverse(&matrix),
+            columns: constants::columns(&matrix),
+            inverse_columns: constants::columns(&constants::inverse(&matrix)),
             matrix,
         }
     }

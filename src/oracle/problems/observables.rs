@@ -136,6 +136,6 @@ fn sphere_array() -> Result<Task, MakeError> {
     let setup = Setup::fluid(domain, collision)
         .with_body_force(Vec3::new(1e-3, 0.0, 0.0))
         .with_solids(SolidPhase { solids, ..SolidPhase::default() });
-    let scene = from_equilibrium(setup, 40, Wanted::Drag, |_| Vec3::zeros())?;
+    let scene = from_equilibrium(setup, 24, Wanted::Drag, |_| Vec3::zeros())?;
     Ok(Task::Scene(Box::new(scene)))
 }
