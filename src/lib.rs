@@ -13,6 +13,7 @@
 //! | [`exact`] | exact solutions to compare with |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
+//! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
 //! | [`machine`] | what this machine has |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -25,6 +26,7 @@ pub mod estimate;
 pub mod exact;
 pub mod kernel;
 pub mod machine;
+pub mod oracle;
 pub mod output;
 pub mod packing;
 pub mod run;
