@@ -333,7 +333,7 @@ fn two_runs_give_the_same_bits() {
             kernel.set_populations(&start).unwrap();
             budget.advance(&mut kernel, 50);
             let mut bits = Vec::new();
-            kernel.save(|row| Ok(bits.extend_from_slice(row))).unwrap();
+            kernel.save(|row| std::io::Write::write_all(&mut bits, row)).unwrap();
             (bits, kernel.loads().unwrap())
         };
         let (first, second) = (once(), once());
