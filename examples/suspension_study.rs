@@ -22,9 +22,9 @@ const STUDY: &str = "golden/suspension/study.csv";
 
 fn main() -> io::Result<()> {
     let mut rows: Vec<_> = golden_rows("suspension/far_field.csv").into_iter().skip(1).collect();
-    // The smallest boxes first.
+    // The smallest boxes first, the largest solid fractions with them.
     rows.sort_by_key(|row| row[3].parse::<u64>().unwrap_or(0));
-    for tau in [0.7, 0.55] {
+    for tau in [0.55, 0.7] {
         for row in &rows {
             let wanted: f64 = row[0].parse().map_err(io::Error::other)?;
             let start = format!("{wanted},{},{},{tau},", &row[1], &row[2]);

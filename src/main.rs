@@ -9,8 +9,10 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
-use psmrt::command::pack::PackRequest;
+use psmrt::command::golden::GoldenCommand;
 use psmrt::command::oracle::OracleCommand;
+use psmrt::command::pack::PackRequest;
+use psmrt::command::report::ReportRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::{self, CommandError};
@@ -90,6 +92,19 @@ Examples:
         #[command(subcommand)]
         command: OracleCommand,
     },
+    /// Measures all cases, judges them and draws them on one page
+    #[command(after_help = "Examples:
+  psmrt report --open
+  psmrt report --oracle-only --out report/validation")]
+    Report(ReportRequest),
+    /// Compares the oracle's results with the reviewed ones, or writes them anew
+    #[command(after_help = "Examples:
+  psmrt golden diff
+  psmrt golden write poiseuille")]
+    Golden {
+        #[command(subcommand)]
+        command: GoldenCommand,
+    },
     /// Says what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -154,6 +169,8 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
             command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })
         }
         Command::Pack(request) => command::pack::pack(&request, json),
+        Command::Report(request) => command::report::report(&request, json),
+        Command::Golden { command } => command::golden::golden(&command),
         Command::Oracle { command } => command::oracle::oracle(&command, json),
         Command::Info => {
             command::info::info(json);

@@ -6,6 +6,7 @@
 //! Full-scale results are committed beside it with the command that made them.
 
 mod bench;
+mod drift;
 mod poiseuille;
 mod sphere_arrays;
 mod suspension;
@@ -26,6 +27,7 @@ use crate::run::RunError;
 use crate::scene::SceneError;
 
 pub use bench::{Bench, EngineName};
+pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use table::Table;
 
 /// A case of the acceptance suite.

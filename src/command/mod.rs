@@ -3,11 +3,13 @@
 pub mod check;
 mod comparison;
 mod execute;
+pub mod golden;
 pub mod info;
 pub mod oracle;
 pub mod pack;
 mod profile;
 mod progress;
+pub mod report;
 pub mod resume;
 pub mod run;
 
@@ -15,6 +17,7 @@ use std::path::Path;
 
 use thiserror::Error;
 
+use crate::cases::CaseError;
 use crate::checkpoint::CheckpointError;
 use crate::engine::{Engine, KernelEngine, ReferenceEngine, StartError};
 use crate::kernel::{Gpu, KernelError, adapters};
@@ -52,6 +55,15 @@ pub enum CommandError {
         /// The offer of the older one; empty if there is none.
         older: String,
     },
+    /// A case cannot be measured.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// A claim of the report fails.
+    #[error("some claims fail: see the report")]
+    ClaimsFail,
+    /// The oracle's results are not the reviewed ones.
+    #[error("the results differ from the reviewed ones: find out why, then `golden write`")]
+    GoldenDiffers,
     /// A file cannot be written.
     #[error("{path} cannot be written: {error}")]
     Write {
@@ -103,7 +115,12 @@ impl CommandError {
             | CommandError::Oracle(_)
             | CommandError::NoAnswers { .. }
             | CommandError::Checkpoint { .. } => 2,
-            CommandError::Run(_) | CommandError::Write { .. } | CommandError::CandidateFailed => 1,
+            CommandError::Run(_)
+            | CommandError::Write { .. }
+            | CommandError::CandidateFailed
+            | CommandError::Case(_)
+            | CommandError::ClaimsFail
+            | CommandError::GoldenDiffers => 1,
             CommandError::Interrupted { .. } => 130,
         }
     }

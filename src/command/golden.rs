@@ -1,0 +1,86 @@
+//! `psmrt golden`: the oracle's own results, compared with the reviewed ones or written anew.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::Subcommand;
+
+use super::execute::say;
+use super::{CommandError, write};
+use crate::cases::{Bench, CASES, Case, Drift, Golden, drifts};
+use crate::output::atomic;
+
+/// What `psmrt golden` is asked for.
+#[derive(Clone, Debug, Subcommand)]
+pub enum GoldenCommand {
+    /// Shows how the oracle's results differ from the reviewed ones; fails if some do
+    Diff(GoldenRequest),
+    /// Shows it and writes the new ones; review them before they are committed
+    Write(GoldenRequest),
+}
+
+/// Which cases.
+#[derive(clap::Args, Clone, Debug)]
+pub struct GoldenRequest {
+    /// One case; all that run scenes where it is absent
+    case: Option<String>,
+    /// Folder of the cases
+    #[arg(long, value_name = "DIR", default_value = "golden")]
+    golden: PathBuf,
+}
+
+/// Does it.
+pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
+    let (request, writes) = match command {
+        GoldenCommand::Diff(request) => (request, false),
+        GoldenCommand::Write(request) => (request, true),
+    };
+    let runs = |case: &&Case| !case.scenes.is_empty();
+    let wanted = |case: &&Case| request.case.as_ref().is_none_or(|name| name == case.name);
+    let cases: Vec<_> = CASES.iter().filter(runs).filter(wanted).collect();
+    if cases.is_empty() {
+        let names: Vec<_> = CASES.iter().filter(runs).map(|case| case.name).collect();
+        let problem = format!("no such case; there are {}", names.join(", "));
+        return Err(CommandError::Usage(problem));
+    }
+    let mut differing = 0;
+    for case in cases {
+        let golden = Golden::of(case, &request.golden);
+        let path = golden.path("expected.csv");
+        let mut bench = Bench::new(&request.golden, None, |_| {});
+        let new = bench.measure(case)?;
+        let old = if path.exists() { Some(golden.table("expected.csv")?) } else { None };
+        match &old {
+            None => say(&format!("{}: no expected.csv yet", case.name)),
+            Some(old) => {
+                let found = drifts(old, &new);
+                say(&format!("{}: {} values differ", case.name, found.len()));
+                for Drift { row, column, old, new, change } in &found {
+                    say(&format!("  row {row}, {column}: {old} -> {new} ({change})"));
+                }
+                differing += found.len();
+            }
+        }
+        if writes {
+            let text = header(case) + &new.to_csv();
+            write(&path, |path| atomic::write(path, |out| out.write_all(text.as_bytes())))?;
+            say(&format!("{} written", path.display()));
+        } else if old.is_none() {
+            differing += 1;
+        }
+    }
+    if differing > 0 && !writes { Err(CommandError::GoldenDiffers) } else { Ok(()) }
+}
+
+/// What a reader of the file must know.
+fn header(case: &Case) -> String {
+    let commit = option_env!("PSMRT_COMMIT").unwrap_or("unknown");
+    format!(
+        "# {}. The oracle's own results, against drift only: the truth is what the claims compare with.\n\
+         # Made by: cargo run --release -- golden write {}, at commit {commit}; engine reference.\n\
+         # Lengths in cells; errors relative; a value may change by {}.\n",
+        case.title,
+        case.name,
+        crate::cases::DRIFT_WORDS,
+    )
+}

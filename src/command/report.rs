@@ -1,0 +1,175 @@
+//! `psmrt report`: every case measured on every engine at hand, judged and drawn on one page.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use psmrt_report::{DataTable, Page, Section, Verdict, render_page, write_svg};
+use serde_json::json;
+
+use super::execute::say;
+use super::{CommandError, info, write};
+use crate::cases::{Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Table};
+use crate::kernel::Gpu;
+use crate::output::atomic;
+
+/// What `psmrt report` is asked for.
+#[derive(Args, Clone, Debug)]
+pub struct ReportRequest {
+    /// Folder for the page, its figures and tables; earlier ones there are replaced
+    #[arg(long, value_name = "DIR", default_value = "out/report")]
+    pub out: PathBuf,
+    /// Folder of the cases
+    #[arg(long, value_name = "DIR", default_value = "golden")]
+    pub golden: PathBuf,
+    /// Only the oracle, even where there is an adapter
+    #[arg(long)]
+    pub oracle_only: bool,
+    /// Opens the page in a browser
+    #[arg(long)]
+    pub open: bool,
+}
+
+/// Makes the report. Errors if a case cannot be measured or a claim fails; the page is written first.
+pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
+    let start = Instant::now();
+    let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
+    let adapter = gpu
+        .as_ref()
+        .map_or("none: the kernel was not run".to_owned(), |gpu| gpu.facts().name.clone());
+    let mut benches = vec![Bench::new(&request.golden, None, tell)];
+    if gpu.is_some() {
+        benches.push(Bench::new(&request.golden, gpu, tell));
+    }
+    fs::create_dir_all(&request.out).map_err(CaseError::from)?;
+    let mut sections = Vec::new();
+    for case in CASES {
+        sections.push(section(case, &mut benches, request)?);
+    }
+    let updates = benches
+        .iter()
+        .map(|bench| format!("{} on {}", bench.cell_updates(), bench.engine_name().word()));
+    let page = Page {
+        title: "psmrt: validation report".to_owned(),
+        about: vec![
+            "psmrt simulates grains in water, grain by grain: lattice Boltzmann with partially saturated \
+             cells, and a discrete element method. This page holds it to exact solutions, published \
+             tables and experiments. Each claim says what was measured, what is allowed and why so much; \
+             an unsteady run is never judged."
+                .to_owned(),
+        ],
+        sections,
+        environment: vec![
+            ("program".to_owned(), info::program().to_string()),
+            ("machine".to_owned(), info::machine().to_string()),
+            ("adapter".to_owned(), adapter),
+            ("cell updates".to_owned(), updates.collect::<Vec<_>>().join(", ")),
+            ("seconds".to_owned(), format!("{:.0}", start.elapsed().as_secs_f64())),
+        ],
+    };
+    let html = render_page(&page).map_err(CaseError::from)?;
+    let index = request.out.join("index.html");
+    write(&index, |path| atomic::write(path, |out| out.write_all(html.as_bytes())))?;
+    print(&page, &index, json);
+    if request.open {
+        open(&index);
+    }
+    if page.holds() { Ok(()) } else { Err(CommandError::ClaimsFail) }
+}
+
+fn tell(what: &str) {
+    eprintln!("  {what}");
+}
+
+fn section(
+    case: &Case,
+    benches: &mut [Bench],
+    request: &ReportRequest,
+) -> Result<Section, CommandError> {
+    eprintln!("{}", case.title);
+    let golden = Golden::of(case, &request.golden);
+    let mut rows = Table::default();
+    for bench in benches {
+        // What is judged from committed results is the same on every engine.
+        if case.scenes.is_empty() && bench.engine_name() != EngineName::Reference {
+            continue;
+        }
+        rows.append(bench.measure(case)?);
+    }
+    let figures = (case.draw)(&golden, &rows)?;
+    for (number, figure) in figures.iter().enumerate() {
+        let path = request.out.join(format!("{}_{}.svg", case.name, number + 1));
+        write(&path, |path| write_svg(figure, path))?;
+    }
+    let table = request.out.join(format!("{}.csv", case.name));
+    let text = rows.to_csv();
+    write(&table, |path| atomic::write(path, |out| out.write_all(text.as_bytes())))?;
+    Ok(Section {
+        name: case.name.to_owned(),
+        title: case.title.to_owned(),
+        about: case.about.iter().map(|&text| text.to_owned()).collect(),
+        verdicts: (case.judge)(&golden, &rows)?.iter().map(verdict).collect(),
+        figures,
+        tables: vec![DataTable {
+            caption: "What was measured".to_owned(),
+            columns: rows.columns,
+            rows: rows.rows,
+        }],
+        scenes: case.scenes.iter().map(|scene| format!("golden/{}/{scene}", case.name)).collect(),
+        command: "cargo run --release -- report".to_owned(),
+    })
+}
+
+fn verdict(claim: &Claim) -> Verdict {
+    Verdict {
+        claim: claim.what.clone(),
+        measured: short(claim.measured),
+        allowed: format!("{} to {}", short(*claim.allowed.start()), short(*claim.allowed.end())),
+        why: claim.why.to_owned(),
+        holds: claim.holds(),
+    }
+}
+
+/// A number in a few characters.
+fn short(value: f64) -> String {
+    if value == 0.0 || (0.001..1e4).contains(&value.abs()) {
+        format!("{value:.4}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+fn print(page: &Page, index: &Path, json: bool) {
+    let verdicts = || page.sections.iter().flat_map(|s| s.verdicts.iter().map(|v| (&s.name, v)));
+    if json {
+        let all: Vec<_> = verdicts()
+            .map(|(case, v)| {
+                json!({ "case": case, "claim": v.claim, "measured": v.measured,
+                        "allowed": v.allowed, "holds": v.holds })
+            })
+            .collect();
+        say(&json!({ "page": index, "holds": page.holds(), "claims": all }).to_string());
+        return;
+    }
+    for (case, v) in verdicts() {
+        let word = if v.holds { "holds" } else { "FAILS" };
+        say(&format!("{word}  {case}: {}: {} ({})", v.claim, v.measured, v.allowed));
+    }
+    say(&format!("report in {}", index.display()));
+}
+
+/// Opens the page; a machine without a browser still has the file.
+fn open(index: &Path) {
+    let program = if cfg!(target_os = "macos") {
+        "open"
+    } else if cfg!(target_os = "windows") {
+        "explorer"
+    } else {
+        "xdg-open"
+    };
+    if let Err(error) = std::process::Command::new(program).arg(index).spawn() {
+        eprintln!("the page cannot be opened with {program}: {error}");
+    }
+}

@@ -1,0 +1,70 @@
+//! The acceptance cases on the oracle: every claim holds, no value has drifted, and no case lacks a part.
+//! (On the kernel: `tests/acceptance_kernel.rs`.)
+
+mod common;
+
+use common::Budget;
+use psmrt::cases::{Bench, CASES, Case, Claim, Golden, drifts};
+use std::path::Path;
+
+fn golden() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/golden"))
+}
+
+fn case(name: &str) -> &'static Case {
+    CASES.iter().find(|case| case.name == name).unwrap()
+}
+
+/// Measures a case at its quick scale and holds it to its claims and to its reviewed results.
+fn holds(name: &str, budget: &mut Budget) {
+    let case = case(name);
+    let files = Golden::of(case, golden());
+    let mut bench = Bench::new(golden(), None, |_| {});
+    let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
+    budget.spend(bench.cell_updates());
+    for claim in (case.judge)(&files, &rows).unwrap() {
+        let Claim { what, measured, allowed, why } = &claim;
+        println!("{name}: {what}: {measured:.3e} in {allowed:.3e?}");
+        assert!(claim.holds(), "{name}: {what}: {measured} is not in {allowed:?} ({why})");
+    }
+    if !case.scenes.is_empty() {
+        let found = drifts(&files.table("expected.csv").unwrap(), &rows);
+        assert!(found.is_empty(), "{name}: look at `psmrt golden diff {name}`: {found:?}");
+    }
+    assert!(!(case.draw)(&files, &rows).unwrap().is_empty(), "{name} draws nothing");
+}
+
+#[test]
+fn poiseuille_flow_holds_its_claims() {
+    holds("poiseuille", &mut Budget::oracle(5_000_000));
+}
+
+#[test]
+fn sphere_arrays_hold_their_claims() {
+    holds("sphere_arrays", &mut Budget::oracle(70_000_000));
+}
+
+#[test]
+fn committed_falls_of_ten_cate_hold_their_claims() {
+    holds("ten_cate", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_suspensions_hold_their_claims() {
+    holds("suspension", &mut Budget::oracle(0));
+}
+
+#[test]
+fn every_case_has_its_parts_and_a_test() {
+    let tests = include_str!("acceptance.rs");
+    for case in CASES {
+        let files = Golden::of(case, golden());
+        for scene in case.scenes {
+            assert!(files.path(scene).exists(), "{}: no {scene}", case.name);
+        }
+        let expected = if case.scenes.is_empty() { "study.csv" } else { "expected.csv" };
+        assert!(files.path(expected).exists(), "{}: no {expected}", case.name);
+        assert!(!case.about.is_empty() && !case.title.is_empty());
+        assert!(tests.contains(&format!("holds(\"{}\"", case.name)), "{} has no test", case.name);
+    }
+}

@@ -1,0 +1,35 @@
+//! The acceptance cases on the kernel: the same scenes and the same claims as on the oracle.
+
+mod common;
+
+use common::{Budget, trials};
+use psmrt::cases::{Bench, CASES, Golden};
+use std::path::Path;
+use std::process::ExitCode;
+
+fn holds(name: &str, budget: &mut Budget) {
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
+    let case = CASES.iter().find(|case| case.name == name).unwrap();
+    let mut bench = Bench::new(&golden, Some(trials::gpu().unwrap()), |_| {});
+    let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
+    budget.spend(bench.cell_updates());
+    for claim in (case.judge)(&Golden::of(case, &golden), &rows).unwrap() {
+        println!("{name}: {}: {:.3e}", claim.what, claim.measured);
+        assert!(claim.holds(), "{name}: {claim:?}");
+    }
+}
+
+fn poiseuille_flow_holds_its_claims() {
+    holds("poiseuille", &mut Budget::kernel(5_000_000));
+}
+
+fn sphere_arrays_hold_their_claims() {
+    holds("sphere_arrays", &mut Budget::kernel(80_000_000));
+}
+
+fn main() -> ExitCode {
+    trials::run(&[
+        ("poiseuille_flow_holds_its_claims", poiseuille_flow_holds_its_claims),
+        ("sphere_arrays_hold_their_claims", sphere_arrays_hold_their_claims),
+    ])
+}
