@@ -149,7 +149,7 @@ fn info_schema_and_completions_print_what_they_should() {
     for shell in ["bash", "zsh", "fish", "powershell"] {
         assert!(stdout(&psmrt(&["completions", shell])).contains("psmrt"), "{shell}");
     }
-    for command in ["run", "check", "resume", "schema", "completions"] {
+    for command in ["run", "check", "resume", "pack", "schema", "completions"] {
         assert!(stdout(&psmrt(&[command, "--help"])).contains("Example"), "{command}");
     }
 }

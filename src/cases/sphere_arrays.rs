@@ -47,7 +47,6 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
         "K",
         "K_exact",
         "error",
-        "steps",
     ]);
     // In single precision the mean velocity carries noise of some 1e-6.
     let quiet = if bench.engine_name() == EngineName::Reference { 1e-6 } else { 1e-5 };
@@ -73,7 +72,6 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
             format!("{drag:.5}"),
             format!("{exact:.6}"),
             format!("{:.5}", drag / exact - 1.0),
-            run.engine.steps().to_string(),
         ]);
     }
     Ok(table)

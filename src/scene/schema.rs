@@ -54,8 +54,11 @@ const RECORDS_HEAD: &str = "
 ## Columns of the records
 
 All tables begin with `time (s),step`. The superficial velocity is the mean mass flux, grains
-included, over the density of the fluid. Loads are those of the fluid on the grain in the last step.
-Pressure is that above the fluid at its reference density.
+included, over the density of the fluid. Loads are those of the fluid on the grain in the last step; of a
+grain whose centre lies on a mirror plane, on the half that is computed. Places of moving grains go on
+counting where they cross a periodic face. Pressure is that above the fluid at its reference density.
+`grain_means` are means and sums over the free grains; contacts are those between grains and with faces,
+and the overlap is given over the mean diameter of the two.
 
 ";
 
