@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
+use psmrt::command::pack::PackRequest;
 use psmrt::command::oracle::OracleCommand;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
@@ -44,6 +45,8 @@ enum Command {
         /// Changes a value of the scene; can be given several times
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
     },
     /// Runs a scene
     #[command(after_help = "Ctrl-C saves the state; `psmrt resume` goes on from it.
@@ -60,6 +63,11 @@ Examples:
         /// Changes a value of the scene; can be given several times
         #[arg(long, value_name = "KEY=VALUE")]
         set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
+        /// Prints seconds per step of fluid, forces, grains, coverage and transfers (engine wgpu)
+        #[arg(long)]
+        profile: bool,
     },
     /// Goes on with a run from its newest checkpoint
     #[command(after_help = "Example:
@@ -71,6 +79,12 @@ Examples:
         #[arg(long, value_name = "FILE")]
         checkpoint: Option<PathBuf>,
     },
+    /// Packs grains and writes them as a list that scenes read
+    #[command(after_help = "Examples:
+  psmrt pack --size 1e-3,1e-3,1e-3 --diameter 1e-4 --porosity 0.4 --out packing.csv
+  psmrt pack --size 1e-3,1e-3,1e-3 --count 1000 --porosity 0.4 --out packing.csv
+  psmrt pack --bed --size 1e-3,1e-3 --diameter 1e-4 --count 500 --walls --out bed.csv")]
+    Pack(PackRequest),
     /// Problems for other people's kernels, a verdict and a diagnosis back
     Oracle {
         #[command(subcommand)]
@@ -95,6 +109,26 @@ Examples:
     },
 }
 
+/// What computes; the same as `--set engine.kind=...` and `--set engine.adapter=...`.
+#[derive(clap::Args)]
+struct EngineArguments {
+    /// What computes: `reference` in double precision on the CPU, `wgpu` in single precision on an
+    /// adapter, `auto` wgpu where there is a GPU in hardware [default: the scene's, else reference]
+    #[arg(long, value_parser = ["reference", "wgpu", "auto"])]
+    engine: Option<String>,
+    /// A part of the adapter's name, see `psmrt info`; alone it stands for `--engine wgpu` too
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+}
+
+impl EngineArguments {
+    /// The changes of the scene with these among them.
+    fn added_to(self, mut set: Vec<String>) -> Vec<String> {
+        set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref()));
+        set
+    }
+}
+
 fn main() -> ExitCode {
     let Arguments { command, json } = Arguments::parse();
     match dispatch(command, json) {
@@ -108,13 +142,18 @@ fn main() -> ExitCode {
 
 fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
     match command {
-        Command::Check { scene, set } => command::check::check(&CheckRequest { scene, set, json }),
-        Command::Run { scene, out, set } => {
-            command::run::run(&RunRequest { scene, set, out, json })
+        Command::Check { scene, set, engine } => {
+            let set = engine.added_to(set);
+            command::check::check(&CheckRequest { scene, set, json })
+        }
+        Command::Run { scene, out, set, engine, profile } => {
+            let set = engine.added_to(set);
+            command::run::run(&RunRequest { scene, set, out, profile, json })
         }
         Command::Resume { dir, checkpoint } => {
             command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })
         }
+        Command::Pack(request) => command::pack::pack(&request, json),
         Command::Oracle { command } => command::oracle::oracle(&command, json),
         Command::Info => {
             command::info::info(json);

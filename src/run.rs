@@ -4,20 +4,20 @@ use std::io;
 use std::path::Path;
 use std::time::Instant;
 
-use psmrt_reference::guard::Stopped;
 use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
-use crate::engine::Engine;
+use crate::engine::{Engine, EngineStop};
+use crate::output::grain_means;
 use crate::output::records::{Recorder, box_row};
-use crate::scene::{Interval, Rhythm, Scene, Steady};
+use crate::scene::{Interval, Rhythm, Scene, Steady, What};
 
 /// A run that could not go on.
 #[derive(Debug, Error)]
 pub enum RunError {
-    /// The guard has stopped it.
+    /// The guard has stopped it, a free grain cannot be moved, or the device has failed.
     #[error(transparent)]
-    Guard(#[from] Stopped),
+    Stopped(#[from] EngineStop),
     /// Its results cannot be written.
     #[error("results cannot be written: {0}; what was written before is whole")]
     Write(#[from] io::Error),
@@ -79,9 +79,11 @@ pub fn run(
         }
         engine.step(run.next_event(now) - now)?;
         run.observe(engine)?;
+        engine.still_works()?;
     };
     if end != End::Interrupted {
         run.finish(engine)?;
+        engine.still_works()?;
     }
     Ok(end)
 }
@@ -197,7 +199,10 @@ impl Quiet {
         if !scene.records[self.steady.record].rhythm.is_due(engine.steps()) {
             return;
         }
-        let value = box_row(scene, engine)[self.steady.column];
+        let value = match scene.records[self.steady.record].what {
+            What::GrainMeans => grain_means::row(scene, engine)[self.steady.column],
+            _ => box_row(scene, engine)[self.steady.column],
+        };
         if let Some(last) = self.last {
             let change = (value - last).abs() / value.abs();
             self.rows = if change <= self.steady.tolerance { self.rows + 1 } else { 0 };

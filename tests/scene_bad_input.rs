@@ -39,6 +39,23 @@ centre = [7e-4, 2.5e-4, 2.5e-4]
 diameter = 1e-4
 motion = "prescribed"
 spin = [0.0, 1.0, 0.0]
+[[grains]]
+kind = "sphere"
+centre = [5e-4, 2.5e-4, 2.5e-4]
+diameter = 1e-4
+motion = "free"
+density = 2650.0
+[gravity]
+acceleration = [0.0, 0.0, -9.81]
+form = "reduced"
+[contact]
+duration = 6e-4
+restitution = 0.6
+friction = 0.4
+tangential_ratio = 0.3
+rolling_resistance = 0.05
+[coupling]
+internal_fluid = "lagged"
 [solid]
 weighting = "noble_torczynski"
 coverage = "sampled"
@@ -170,13 +187,66 @@ const BAD: &[Bad] = &[
     Bad("diameter = 2e-4", "diameter = 2e-4\nspin = [0.0, 0.0, 1.0]", "grains[0].spin", "belongs to"),
     Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [3e-3, 2.5e-4, 2.5e-4]", "grains[0].centre", "outside the box"),
     Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [5e-5, 2.5e-4, 2.5e-4]", "grains[0].centre", "sticks"),
-    Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [6e-4, 2.5e-4, 2.5e-4]", "grains[1].centre", "overlap"),
+    Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [8e-4, 2.5e-4, 2.5e-4]", "grains[1].centre", "overlap"),
     Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [inf, 2.5e-4, 2.5e-4]", "grains[0].centre", "finite"),
-    Bad("motion = \"prescribed\"\nspin = [0.0, 1.0, 0.0]", "motion = \"free\"", "grains[1].motion", "not built yet"),
     Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"csv\"", "grains[0].file", "relative"),
     Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"csv\"\nfile = \"none.csv\"", "grains[0].file", "cannot be read"),
     Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"array\"\nlattice = \"sc\"\nsolid_fraction = 0.2", "grains[0].counts", "cubes"),
     Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"array\"\nlattice = \"sc\"\ncounts = [2, 1, 1]\nsolid_fraction = 1.2", "grains[0].solid_fraction", "0.5236"),
+    // Generated grains.
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ndiameter = 1e-4", "grains[0].count", "`solid_fraction`"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 0\ndiameter = 1e-4", "grains[0].count", "at least 1"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 3", "grains[0].diameter", "`diameter_range`"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 3\nsolid_fraction = 0.1\ndiameter = 1e-4", "grains[0].solid_fraction", "one of them"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\nsolid_fraction = 0.9\ndiameter = 1e-4", "grains[0].solid_fraction", "0.74"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\nsolid_fraction = 0.1\ndiameter = 1e-9", "grains[0].diameter", "cells across"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\nsolid_fraction = 0.45\ndiameter = 1e-4", "grains[0].kind", "random places run out"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 3\ndiameter = 1e-4\nseed = -1", "grains[0].seed", "at least 0"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 3\ndiameter = 1e-4\ngap = -1e-6", "grains[0].gap", "not negative"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 3\ndiameter_range = [2e-4, 1e-4]", "grains[0].diameter_range", "smaller first"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 3\ndiameter = 6e-4", "grains[0].count", "do not fit"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"bed\"\ncount = 3\ndiameter = 1e-4", "grains[0].kind", "z_low"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"bed\"\ndiameter = 1e-4", "grains[0].count", "number of grains"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"bed\"\ncount = 30000\ndiameter = 1e-4", "grains[0].count", "20000 is the limit"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"bed\"\ncount = 3\ndiameter = 1e-4\nsolid_fraction = 0.3", "grains[0].solid_fraction", "belongs to"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\nseed = 3\ndiameter = 2e-4", "grains[0].seed", "belongs to"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\npacking_friction = 0.3\ndiameter = 2e-4", "grains[0].packing_friction", "belongs to"),
+    // Free grains.
+    Bad("density = 2650.0", "", "grains[2].density", "quartz"),
+    Bad("density = 2650.0", "density = -2650.0", "grains[2].density", "above 0"),
+    Bad("density = 2650.0", "density = 2.65", "grains[2].density", "kg/m3"),
+    Bad("density = 2650.0", "density = 2650.0\nvelocity = [0.0, 9.0, 0.0]", "grains[2].velocity", "Mach"),
+    Bad("diameter = 2e-4", "diameter = 2e-4\ndensity = 2650.0", "grains[0].density", "belongs to"),
+    Bad("motion = \"free\"\ndensity = 2650.0", "", "gravity", "no grain of the scene is free"),
+    Bad("motion = \"free\"\ndensity = 2650.0\n[gravity]\nacceleration = [0.0, 0.0, -9.81]\nform = \"reduced\"", "", "contact", "no grain of the scene is free"),
+    Bad("acceleration = [0.0, 0.0, -9.81]", "acceleration = [0.0, 0.0, -9.81e9]", "gravity.acceleration", "shorter time step"),
+    Bad("acceleration = [0.0, 0.0, -9.81]", "acceleration = [0.0, 0.0, nan]", "gravity.acceleration", "finite"),
+    Bad("acceleration = [0.0, 0.0, -9.81]", "", "gravity.acceleration", "m/s2"),
+    Bad("form = \"reduced\"", "form = \"reducd\"", "gravity.form", "did you mean `reduced`?"),
+    Bad("duration = 6e-4", "duration = 0.0", "contact.duration", "above 0"),
+    Bad("duration = 6e-4", "duration = 6e-4\nstiffness = 3.0", "contact.duration", "one of them"),
+    Bad("duration = 6e-4", "damping = 6e-4", "contact.damping", "belongs to `stiffness`"),
+    Bad("duration = 6e-4", "stiffness = 1.0\ndamping = 1e-6", "contact.restitution", "one of them"),
+    Bad("duration = 6e-4", "stiffness = -1.0", "contact.stiffness", "above 0"),
+    Bad("duration = 6e-4\nrestitution = 0.6", "stiffness = 1.0\ndamping = -1e-6", "contact.damping", "negative"),
+    Bad("restitution = 0.6", "restitution = 1.1", "contact.restitution", "between 0.01 and 1"),
+    Bad("restitution = 0.6", "restitution = 0.0", "contact.restitution", "between 0.01 and 1"),
+    Bad("friction = 0.4", "friction = 0.0", "contact.tangential_ratio", "belongs to"),
+    Bad("friction = 0.4", "friction = -0.4", "contact.friction", "negative"),
+    Bad("tangential_ratio = 0.3", "tangential_ratio = 0.0", "contact.tangential_ratio", "positive"),
+    Bad("rolling_resistance = 0.05", "rolling_resistance = inf", "contact.rolling_resistance", "finite"),
+    Bad("rolling_resistance = 0.05", "rolling_resistance = 0.05\nsubsteps = 0", "contact.substeps", "between 1"),
+    Bad("rolling_resistance = 0.05", "substeps = 1", "contact.substeps", "2 sub-steps or more"),
+    Bad("duration = 6e-4", "duration = 1e-12", "contact.duration", "sub-steps"),
+    Bad("internal_fluid = \"lagged\"", "internal_fluid = \"implicit\"", "coupling.internal_fluid", "lagged, kept"),
+    Bad("internal_fluid = \"lagged\"", "average_loads = 2", "coupling.average_loads", "a boolean"),
+    Bad("[coupling]", "[lubrication]\n[coupling]", "lubrication", "mirror plane"),
+    Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\nsmallest_gap = -1e-9", "lubrication.smallest_gap", "above 0"),
+    Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\ncutoff_gap = 1e-9", "lubrication.cutoff_gap", "a thousandth"),
+    Bad("centre = [5e-4, 2.5e-4, 2.5e-4]", "centre = [5e-4, 4.9e-4, 2.5e-4]", "grains[2].centre", "its own image"),
+    Bad("centre = [5e-4, 2.5e-4, 2.5e-4]", "centre = [5e-4, 5e-4, 2.5e-4]", "grains[0].centre", "all centres on the plane or none"),
+    Bad("column = \"density\"", "column = \"kinetic_energy\"", "stop.steady.column", "superficial_velocity_x"),
+    Bad("motion = \"free\"\ndensity = 2650.0\n[gravity]\nacceleration = [0.0, 0.0, -9.81]\nform = \"reduced\"\n[contact]\nduration = 6e-4\nrestitution = 0.6\nfriction = 0.4\ntangential_ratio = 0.3\nrolling_resistance = 0.05\n[coupling]\ninternal_fluid = \"lagged\"", "[[records]]\nname = \"m\"\nkind = \"grain_means\"", "records[0].kind", "no free grains"),
     // Not TOML.
     Bad("density = 1000.0", "density = ", "", "not valid TOML"),
     Bad("density = 1000.0", "density = 1000.0\ndensity = 1000.0", "", "not valid TOML"),
@@ -274,7 +344,12 @@ fn wrong_lists_of_grains_name_their_line() {
         (format!("{head}1e-4,2e-4,2e-4,-1e-4\n"), "diameter (m) = \"-1e-4\""),
         (format!("{head}1e-4,2e-4,NaN,1e-4\n"), "z (m) = \"NaN\""),
         (head.to_owned(), "no grains in it"),
-        (head.replace('\n', ",density (kg/m3)\n"), "a column too many"),
+        (head.replace('\n', ",density (kg/m3),colour\n"), "a column too many"),
+        (head.replace('\n', ",density\n"), "column 5 is \"density\""),
+        (
+            head.replace('\n', ",density (kg/m3)\n3e-4,2.5e-4,2.5e-4,2e-4,-1\n"),
+            "density (kg/m3) = \"-1\"",
+        ),
         (format!("{head}3e-4,2.5e-4,2.5e-4,2e-4\n3e-4,2.5e-4,2.5e-4,2e-4\n"), "overlap"),
     ] {
         folder.write("grains.csv", &list);

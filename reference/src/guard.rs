@@ -169,6 +169,17 @@ const MAX_DENSITY_DRIFT: f64 = 0.1;
 /// nearly incompressible.
 const MAX_DENSITY_FACTOR: f64 = 2.0;
 
+/// What a look at all cells sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// Mean density.
+    pub mean_density: f64,
+    /// Largest speed `|j|/rho`.
+    pub max_speed: f64,
+    /// The first broken cell and what is wrong with it.
+    pub broken: Option<(usize, Symptom)>,
+}
+
 /// What a guard has seen so far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evidence {
@@ -197,35 +208,53 @@ impl Guard {
 
     /// Looks if it is time to.
     pub fn look(&mut self, setup: &Setup, f: &[Populations], step: u64) -> Result<(), Stopped> {
-        if step.is_multiple_of(self.settings.interval.max(1)) {
-            self.look_now(setup, f, step)?;
-        }
-        Ok(())
+        if self.is_due(step) { self.look_now(setup, f, step) } else { Ok(()) }
+    }
+
+    /// Whether it is time for a look before step `step`.
+    pub fn is_due(&self, step: u64) -> bool {
+        step.is_multiple_of(self.settings.interval.max(1))
     }
 
     /// Looks at every cell. Errors at the first that is broken.
     pub fn look_now(&mut self, setup: &Setup, f: &[Populations], step: u64) -> Result<(), Stopped> {
         let (mut mass, mut max_speed) = (0.0, 0.0_f64);
+        let mut broken = None;
         for (cell, f) in f.iter().enumerate() {
-            let rho = density(f);
-            let speed = momentum(f).norm() / rho;
-            mass += rho;
-            max_speed = max_speed.max(speed);
-            let symptom = if !(rho.is_finite() && speed.is_finite()) {
-                Symptom::NotFinite
-            } else if rho <= 0.0 {
-                Symptom::NoDensity(rho)
-            } else if speed > self.settings.max_speed {
-                Symptom::TooFast(speed)
-            } else {
-                continue;
-            };
+            mass += density(f);
+            max_speed = max_speed.max(momentum(f).norm() / density(f));
+            if let Some(symptom) = self.symptom(f) {
+                broken = Some((cell, symptom));
+                break;
+            }
+        }
+        let mean_density = mass / f.len() as f64;
+        self.judge(setup, step, &Sight { mean_density, max_speed, broken })
+    }
+
+    /// What is wrong with a cell, if anything is.
+    pub fn symptom(&self, f: &Populations) -> Option<Symptom> {
+        let rho = density(f);
+        let speed = momentum(f).norm() / rho;
+        if !(rho.is_finite() && speed.is_finite()) {
+            Some(Symptom::NotFinite)
+        } else if rho <= 0.0 {
+            Some(Symptom::NoDensity(rho))
+        } else {
+            (speed > self.settings.max_speed).then_some(Symptom::TooFast(speed))
+        }
+    }
+
+    /// Judges what a look at all cells before step `step` has seen, whoever has looked. Errors if a cell
+    /// is broken or the mean density is.
+    pub fn judge(&mut self, setup: &Setup, step: u64, sight: &Sight) -> Result<(), Stopped> {
+        if let Some((cell, symptom)) = sight.broken {
             let cause = self.probable_cause(setup, step);
             return Err(Stopped { step, cell: setup.domain.coordinates(cell), symptom, cause });
         }
-        self.last_mean_density = mass / f.len() as f64;
+        self.last_mean_density = sight.mean_density;
         self.first_mean_density.get_or_insert(self.last_mean_density);
-        self.last_max_speed = max_speed;
+        self.last_max_speed = sight.max_speed;
         let ratio = self.density_drift();
         if (1.0 / MAX_DENSITY_FACTOR..=MAX_DENSITY_FACTOR).contains(&ratio) {
             return Ok(());

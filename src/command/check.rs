@@ -27,12 +27,12 @@ const CALIBRATION: Duration = Duration::from_millis(500);
 /// Checks a scene. Warnings are no errors.
 pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
-    let mut engine = engine(&scene, &request.scene)?;
+    let mut engine = engine(&scene, &request.scene, false)?;
     let (numbers, models, warnings) = (numbers(&scene), models(&scene), warnings(&scene));
-    let speed = calibrate(&scene, &mut engine, CALIBRATION);
+    let speed = calibrate(&scene, engine.as_mut(), CALIBRATION);
     if request.json {
         let engines = speed.map(|[updates, seconds]| {
-            json!([{ "engine": "reference", "cell_updates_per_second": updates, "seconds": seconds }])
+            json!([{ "engine": engine.name(), "cell_updates_per_second": updates, "seconds": seconds }])
         });
         let all = json!({
             "numbers": numbers, "models": models, "warnings": warnings, "engines": engines,
@@ -49,9 +49,10 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     }
     match speed {
         Some([updates, seconds]) => say(&format!(
-            "  {:<20}{:<18}engine reference, {:.2} million cell updates a second",
+            "  {:<20}{:<18}engine {}, {:.2} million cell updates a second",
             "time, at most",
             duration(seconds),
+            engine.name(),
             updates / 1e6
         )),
         None => say("  the first steps of the calibration failed: run it to see why"),
@@ -73,7 +74,7 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
 fn figure(value: f64) -> String {
     if value == value.round() && value.abs() < 1e9 {
         format!("{value}")
-    } else if (1e-3..1e5).contains(&value.abs()) {
+    } else if (0.1..1e5).contains(&value.abs()) {
         format!("{value:.4}")
     } else {
         format!("{value:.4e}")

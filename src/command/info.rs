@@ -3,13 +3,15 @@
 use serde_json::{Value, json};
 
 use super::execute::say;
+use crate::kernel::{AdapterFacts, adapters};
 use crate::machine;
 
-/// The program: version, commit, compiler's target.
+/// The program: version, commit and whether the sources had been changed since, compiler's target.
 pub(super) fn program() -> Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
         "commit": option_env!("PSMRT_COMMIT"),
+        "modified": option_env!("PSMRT_MODIFIED").map(|text| text == "true"),
         "target": format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         "debug_assertions": cfg!(debug_assertions),
     })
@@ -27,9 +29,17 @@ pub(super) fn machine() -> Value {
 /// Prints it.
 pub fn info(json: bool) {
     let (program, machine) = (program(), machine());
-    let engines = json!([{ "name": "reference", "what": "the oracle: double precision, CPU" }]);
+    let engines = json!([
+        { "name": "reference", "what": "the oracle: double precision, CPU" },
+        { "name": "wgpu", "what": "the kernel: single precision, any adapter" },
+    ]);
+    let adapters = adapters();
     if json {
-        say(&json!({ "program": program, "machine": machine, "engines": engines }).to_string());
+        let adapters: Vec<Value> = adapters.iter().map(adapter_facts).collect();
+        let all = json!({
+            "program": program, "machine": machine, "engines": engines, "adapters": adapters,
+        });
+        say(&all.to_string());
         return;
     }
     let text = |value: &Value| match value {
@@ -42,12 +52,45 @@ pub fn info(json: bool) {
         |bytes| format!("{:.1} GiB", bytes as f64 / (1_u64 << 30) as f64),
     );
     say(&format!("psmrt      {}", text(&program["version"])));
-    say(&format!("commit     {}", text(&program["commit"])));
+    let modified = match program["modified"].as_bool() {
+        Some(true) => " and changes that are not committed",
+        _ => "",
+    };
+    say(&format!("commit     {}{modified}", text(&program["commit"])));
     say(&format!("target     {}", text(&program["target"])));
     say(&format!("processor  {}", text(&machine["processor"])));
     say(&format!("threads    {}", text(&machine["threads"])));
     say(&format!("memory     {gib}"));
     say("engines    reference (the oracle: double precision, CPU)");
+    say("           wgpu (the kernel: single precision, any adapter below)");
+    if adapters.is_empty() {
+        say("adapters   none: a Vulkan, Metal or DX12 driver is needed, or Mesa's software Vulkan");
+    }
+    for (number, adapter) in adapters.iter().enumerate() {
+        say(&format!(
+            "{}{} ({}, {}; {}); largest binding {} MiB, {} bindings",
+            if number == 0 { "adapters   " } else { "           " },
+            adapter.name,
+            adapter.kind,
+            adapter.backend,
+            adapter.driver,
+            adapter.max_binding_bytes >> 20,
+            adapter.max_bindings,
+        ));
+    }
+}
+
+/// An adapter for scripts.
+fn adapter_facts(adapter: &AdapterFacts) -> Value {
+    json!({
+        "name": adapter.name,
+        "kind": adapter.kind,
+        "backend": adapter.backend,
+        "driver": adapter.driver,
+        "max_buffer_bytes": adapter.max_buffer_bytes,
+        "max_binding_bytes": adapter.max_binding_bytes,
+        "max_bindings": adapter.max_bindings,
+    })
 }
 
 /// Prints the JSON schema of scene files, or the reference for people.

@@ -5,6 +5,8 @@ mod comparison;
 mod execute;
 pub mod info;
 pub mod oracle;
+pub mod pack;
+mod profile;
 mod progress;
 pub mod resume;
 pub mod run;
@@ -14,11 +16,12 @@ use std::path::Path;
 use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
-use crate::engine::ReferenceEngine;
+use crate::engine::{Engine, KernelEngine, ReferenceEngine, StartError};
+use crate::kernel::{Gpu, KernelError, adapters};
 use crate::oracle::files::FilesError;
 use crate::output::folder::FolderError;
 use crate::run::RunError;
-use crate::scene::{Scene, SceneError};
+use crate::scene::{EngineKind, Scene, SceneError};
 
 /// A command that failed.
 #[derive(Debug, Error)]
@@ -32,9 +35,15 @@ pub enum CommandError {
     /// The run could not go on.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// The device cannot be had, or not for this scene.
+    #[error(transparent)]
+    Device(#[from] KernelError),
     /// A run cannot be resumed.
     #[error("{0}")]
     Resume(String),
+    /// The options of a command make no sense together, or ask for what cannot be made.
+    #[error("{0}")]
+    Usage(String),
     /// A checkpoint cannot be used, and perhaps an older one can.
     #[error("{error}{older}")]
     Checkpoint {
@@ -87,8 +96,10 @@ impl CommandError {
     pub fn exit_code(&self) -> u8 {
         match self {
             CommandError::Scene(_)
+            | CommandError::Device(_)
             | CommandError::Folder(_)
             | CommandError::Resume(_)
+            | CommandError::Usage(_)
             | CommandError::Oracle(_)
             | CommandError::NoAnswers { .. }
             | CommandError::Checkpoint { .. } => 2,
@@ -98,12 +109,49 @@ impl CommandError {
     }
 }
 
-/// The engine for a scene, at its start.
-fn engine(scene: &Scene, file: &Path) -> Result<ReferenceEngine, CommandError> {
-    ReferenceEngine::new(scene).map_err(|error| {
-        let file = file.display().to_string();
-        SceneError::whole_file(&file, error.to_string(), "change the scene").into()
-    })
+/// The engine that a scene asks for, at its start. With `profiled` it keeps where its time goes, if it
+/// can.
+fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>, CommandError> {
+    let refused = |problem: String| {
+        SceneError::whole_file(&file.display().to_string(), problem, "change the scene").into()
+    };
+    if !wants_kernel(scene) {
+        let engine = ReferenceEngine::new(scene).map_err(|error| refused(error.to_string()))?;
+        return Ok(Box::new(engine));
+    }
+    let gpu = Gpu::open(scene.adapter.as_deref())?;
+    match KernelEngine::new(scene, &gpu, profiled) {
+        Ok(engine) => Ok(Box::new(engine)),
+        Err(StartError::Device(error)) => Err(error.into()),
+        Err(error) => Err(refused(error.to_string())),
+    }
+}
+
+/// Whether the kernel is to compute a scene. `auto` takes a software adapter for none: that shares the
+/// processor with the oracle and has half its digits, which a user should ask for by name.
+fn wants_kernel(scene: &Scene) -> bool {
+    match scene.engine {
+        EngineKind::Reference => false,
+        EngineKind::Wgpu => true,
+        EngineKind::Auto => {
+            let found = adapters();
+            let is_there = scene.adapter.is_some() || found.iter().any(|a| !a.is_software());
+            if !is_there {
+                let why = if found.is_empty() { "no adapter" } else { "only a software adapter" };
+                eprintln!("engine auto: {why}, so the oracle (reference) computes");
+            }
+            is_there && !found.is_empty()
+        }
+    }
+}
+
+/// The changes of a scene that `--engine` and `--adapter` stand for: they become part of the scene that
+/// the run's folder keeps, so that `resume` goes on with the same.
+pub fn engine_changes(engine: Option<&str>, adapter: Option<&str>) -> Vec<String> {
+    let engine = engine.or(adapter.map(|_| "wgpu"));
+    let kind = engine.map(|engine| format!("engine.kind=\"{engine}\""));
+    let adapter = adapter.map(|name| format!("engine.adapter={}", toml_edit::Value::from(name)));
+    kind.into_iter().chain(adapter).collect()
 }
 
 /// Does the writing of one file and says which file it was when that fails.

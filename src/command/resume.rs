@@ -24,12 +24,16 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
     let folder = &request.folder;
     let file = folder.join("scene.toml");
     if !file.is_file() {
-        let problem = format!("{} is no folder of a run: it has no scene.toml", folder.display());
+        let problem = format!(
+            "{} is no folder of a run: it has no scene.toml (a run that was killed before it had written \
+             its scene has computed nothing: remove the folder and use `psmrt run` again)",
+            folder.display()
+        );
         return Err(CommandError::Resume(problem));
     }
     let scene = Scene::load(&file, &[])?;
-    let mut engine = engine(&scene, &file)?;
-    let progress = go_back(request, &scene, &mut engine)?;
+    let mut engine = engine(&scene, &file, false)?;
+    let progress = go_back(request, &scene, engine.as_mut())?;
     if progress.is_none() {
         eprintln!("there is no checkpoint yet: the run starts again from its beginning");
         for record in &scene.records {
@@ -39,7 +43,7 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
             }
         }
     }
-    execute(&scene, &mut engine, folder, progress.as_ref(), request.json)
+    execute(&scene, engine.as_mut(), folder, progress.as_ref(), request.json)
 }
 
 /// Puts the engine into the state of the checkpoint; `None` if there is none.

@@ -17,6 +17,8 @@ pub struct RunRequest {
     pub set: Vec<String>,
     /// Where the results go.
     pub out: Option<PathBuf>,
+    /// Whether to print where the time went.
+    pub profile: bool,
     /// Whether to print one JSON object instead of text.
     pub json: bool,
 }
@@ -24,7 +26,7 @@ pub struct RunRequest {
 /// Runs a scene.
 pub fn run(request: &RunRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
-    let mut engine = engine(&scene, &request.scene)?;
+    let mut engine = engine(&scene, &request.scene, request.profile)?;
     let folder = folder::make(request.out.as_deref(), &folder::scene_name(&request.scene))?;
     // The copies of the files that the scene names come first: a folder with a scene in it is whole.
     for attachment in &scene.attachments {
@@ -36,5 +38,5 @@ pub fn run(request: &RunRequest) -> Result<(), CommandError> {
     write(&folder.join("scene.toml"), |path| {
         atomic::write(path, |out| out.write_all(scene.text.as_bytes()))
     })?;
-    execute(&scene, &mut engine, &folder, None, request.json)
+    execute(&scene, engine.as_mut(), &folder, None, request.json)
 }

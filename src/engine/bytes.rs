@@ -29,3 +29,11 @@ pub(super) fn real(from: &mut dyn Read) -> io::Result<f64> {
 pub(super) fn vector(from: &mut dyn Read) -> io::Result<Vec3> {
     Ok(Vec3::new(real(from)?, real(from)?, real(from)?))
 }
+
+/// Errors unless the file has as many as the scene.
+pub(super) fn expect(found: u64, wanted: usize, what: &str) -> io::Result<()> {
+    if found == wanted as u64 {
+        return Ok(());
+    }
+    Err(io::Error::other(format!("it has {found} {what}, the scene {wanted}")))
+}

@@ -2,15 +2,22 @@
 //! is assumed to keep its fields where the caller could look at them.
 
 mod bytes;
+pub mod free_state;
 mod reference;
+mod wgpu;
 
 use std::io::{self, Read, Write};
 
-use psmrt_reference::guard::Stopped;
+use psmrt_reference::coupling::CoupledStop;
+use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Load, Solid};
+use thiserror::Error;
+
+use crate::kernel::KernelError;
 
 pub use reference::ReferenceEngine;
+pub use wgpu::{KernelEngine, Profile, StartError};
 
 /// The state of one cell, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +41,17 @@ pub struct BoxMeans {
     pub max_speed: f64,
 }
 
+/// Why an engine cannot go on.
+#[derive(Debug, Error)]
+pub enum EngineStop {
+    /// The guard of the fluid has stopped it, or the grains cannot be moved.
+    #[error(transparent)]
+    Broken(#[from] CoupledStop),
+    /// The device has failed.
+    #[error(transparent)]
+    Device(#[from] KernelError),
+}
+
 /// Something that computes a scene step by step.
 pub trait Engine {
     /// Its name, as `--engine` spells it.
@@ -42,8 +60,25 @@ pub trait Engine {
     /// Steps made so far.
     fn steps(&self) -> u64;
 
-    /// Makes `count` steps. Errors when the guard finds the state broken.
-    fn step(&mut self, count: u64) -> Result<(), Stopped>;
+    /// What it computes on besides the processor, if it does.
+    fn adapter(&self) -> Option<String> {
+        None
+    }
+
+    /// Makes `count` steps. Errors when the guard finds the state broken, a free grain cannot be moved,
+    /// or the device fails.
+    fn step(&mut self, count: u64) -> Result<(), EngineStop>;
+
+    /// Errors if the device has failed while something was observed: what was seen then is not a
+    /// number.
+    fn still_works(&self) -> Result<(), EngineStop> {
+        Ok(())
+    }
+
+    /// Where the time has gone, if that is kept.
+    fn profile(&self) -> Option<Profile> {
+        None
+    }
 
     /// Means over the box.
     fn box_means(&self) -> BoxMeans;
@@ -54,7 +89,10 @@ pub trait Engine {
     /// The solids, where they are now.
     fn solids(&self) -> Vec<Solid>;
 
-    /// Force and torque on each solid during the last step.
+    /// All grains with their contacts, if some are free; grain number `i` is solid number `i`.
+    fn free_grains(&self) -> Option<&GrainSystem>;
+
+    /// Force and torque of the fluid on each solid during the last step.
     fn loads(&self) -> Vec<Load>;
 
     /// Writes all that it needs to go on from here, bit for bit.

@@ -2,33 +2,58 @@
 
 use std::io::{self, Read, Write};
 
+use psmrt_reference::coupling::{CoupledSolver, CoupledStop, CouplingError};
 use psmrt_reference::forcing::forced_velocity;
-use psmrt_reference::guard::{Evidence, Stopped};
+use psmrt_reference::grains::system::GrainSystem;
+use psmrt_reference::guard::Evidence;
 use psmrt_reference::lattice::{Vec3, density, momentum};
-use psmrt_reference::setup::SetupError;
+use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::{Memory, Solver};
 
-use super::bytes::{put_real, put_vector, put_whole, real, vector, whole};
-use super::{BoxMeans, CellState, Engine};
-use crate::scene::Scene;
+use super::bytes::{expect, put_real, put_vector, put_whole, real, vector, whole};
+use super::{BoxMeans, CellState, Engine, EngineStop, free_state};
+use crate::scene::{FreePart, Scene};
 
 /// Plain double precision on the CPU.
 #[derive(Clone, Debug)]
 pub struct ReferenceEngine {
-    solver: Solver,
+    state: State,
+}
+
+/// The fluid, with free grains or without.
+#[derive(Clone, Debug)]
+enum State {
+    Fluid(Box<Solver>),
+    Coupled(Box<CoupledSolver>, Box<FreePart>),
 }
 
 impl ReferenceEngine {
     /// The scene at its start. Errors if the oracle refuses the set-up.
-    pub fn new(scene: &Scene) -> Result<Self, SetupError> {
+    pub fn new(scene: &Scene) -> Result<Self, CouplingError> {
         let velocity = scene.initial_velocity;
-        let solver = Solver::starting_from(scene.setup.clone(), |_| (1.0, velocity))?;
-        Ok(ReferenceEngine { solver })
+        let start = |_| (1.0, velocity);
+        let state = match &scene.free {
+            None => State::Fluid(Box::new(Solver::starting_from(scene.setup.clone(), start)?)),
+            Some(part) => {
+                let FreePart { setup, grains, planes, settings } = part.clone();
+                let fluid = without_solids(&scene.setup);
+                let solver = CoupledSolver::new(fluid, start, setup, grains, planes, settings)?;
+                State::Coupled(Box::new(solver), Box::new(part.clone()))
+            }
+        };
+        Ok(ReferenceEngine { state })
+    }
+
+    fn fluid(&self) -> &Solver {
+        match &self.state {
+            State::Fluid(solver) => solver,
+            State::Coupled(solver, _) => solver.fluid(),
+        }
     }
 
     fn body_force(&self) -> Vec3 {
-        self.solver.setup().body_force.unwrap_or_else(Vec3::zeros)
+        self.fluid().setup().body_force.unwrap_or_else(Vec3::zeros)
     }
 }
 
@@ -38,29 +63,33 @@ impl Engine for ReferenceEngine {
     }
 
     fn steps(&self) -> u64 {
-        self.solver.steps()
+        self.fluid().steps()
     }
 
-    fn step(&mut self, count: u64) -> Result<(), Stopped> {
-        self.solver.run(count)
+    fn step(&mut self, count: u64) -> Result<(), EngineStop> {
+        match &mut self.state {
+            State::Fluid(solver) => solver.run(count).map_err(CoupledStop::from)?,
+            State::Coupled(solver, _) => solver.run(count)?,
+        }
+        Ok(())
     }
 
     fn box_means(&self) -> BoxMeans {
-        let (f, g) = (self.solver.populations(), self.body_force());
+        let (f, g) = (self.fluid().populations(), self.body_force());
         let n = f.len() as f64;
         let speed = |f| forced_velocity(density(f), &momentum(f), &g).norm();
         BoxMeans {
             density: f.iter().map(density).sum::<f64>() / n,
-            mass_flux: self.solver.mass_flux_field().iter().sum::<Vec3>() / n,
+            mass_flux: self.fluid().mass_flux_field().iter().sum::<Vec3>() / n,
             max_speed: f.iter().map(speed).fold(0.0, f64::max),
         }
     }
 
     fn cells(&self, numbers: &[usize]) -> Vec<CellState> {
         let g = self.body_force();
-        let coverage = self.solver.coverage();
+        let coverage = self.fluid().coverage();
         let state = |&cell: &usize| {
-            let f = &self.solver.populations()[cell];
+            let f = &self.fluid().populations()[cell];
             let rho = density(f);
             CellState {
                 density: rho,
@@ -72,15 +101,26 @@ impl Engine for ReferenceEngine {
     }
 
     fn solids(&self) -> Vec<Solid> {
-        self.solver.setup().solid_phase.as_ref().map_or_else(Vec::new, |phase| phase.solids.clone())
+        self.fluid()
+            .setup()
+            .solid_phase
+            .as_ref()
+            .map_or_else(Vec::new, |phase| phase.solids.clone())
+    }
+
+    fn free_grains(&self) -> Option<&GrainSystem> {
+        match &self.state {
+            State::Fluid(_) => None,
+            State::Coupled(solver, _) => Some(solver.grains()),
+        }
     }
 
     fn loads(&self) -> Vec<Load> {
-        self.solver.loads().to_vec()
+        self.fluid().loads().to_vec()
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Memory { steps, loads, evidence } = self.solver.memory();
+        let Memory { steps, loads, evidence } = self.fluid().memory();
         put_whole(out, steps)?;
         put_vector(out, &self.body_force())?;
         put_whole(out, loads.len() as u64)?;
@@ -92,12 +132,18 @@ impl Engine for ReferenceEngine {
         put_real(out, evidence.first_mean_density.unwrap_or(f64::NAN))?;
         put_real(out, evidence.last_mean_density)?;
         put_real(out, evidence.last_max_speed)?;
-        put_whole(out, self.solver.populations().len() as u64)?;
-        self.solver.populations().iter().flatten().try_for_each(|&f| put_real(out, f))
+        put_whole(out, self.fluid().populations().len() as u64)?;
+        self.fluid().populations().iter().flatten().try_for_each(|&f| put_real(out, f))?;
+        match &self.state {
+            State::Fluid(_) => Ok(()),
+            State::Coupled(solver, _) => {
+                free_state::save(out, &solver.grains().state(), solver.last_steps())
+            }
+        }
     }
 
     fn load(&mut self, from: &mut dyn Read) -> io::Result<()> {
-        let mut setup = self.solver.setup().clone();
+        let mut setup = self.fluid().setup().clone();
         let steps = whole(from)?;
         let body_force = vector(from)?;
         if let Some(force) = &mut setup.body_force {
@@ -117,20 +163,31 @@ impl Engine for ReferenceEngine {
             last_max_speed: real(from)?,
         };
         expect(whole(from)?, setup.domain.cell_count(), "cells")?;
-        let mut f = self.solver.populations().to_vec();
+        let mut f = self.fluid().populations().to_vec();
         for population in f.iter_mut().flatten() {
             *population = real(from)?;
         }
         let memory = Memory { steps, loads, evidence };
-        self.solver = Solver::going_on_from(setup, f, memory).map_err(io::Error::other)?;
+        match &mut self.state {
+            State::Fluid(solver) => {
+                **solver = Solver::going_on_from(setup, f, memory).map_err(io::Error::other)?;
+            }
+            State::Coupled(solver, part) => {
+                let (grains, last) = free_state::load(from, part)?;
+                let (fluid, grains) = ((setup, f, memory), (part.setup, grains));
+                **solver = CoupledSolver::going_on_from(fluid, grains, part.settings, last)
+                    .map_err(io::Error::other)?;
+            }
+        }
         Ok(())
     }
 }
 
-/// Errors unless the file has as many as the scene.
-fn expect(found: u64, wanted: usize, what: &str) -> io::Result<()> {
-    if found == wanted as u64 {
-        return Ok(());
+/// The set-up with a solid phase that waits for its grains.
+fn without_solids(setup: &Setup) -> Setup {
+    let mut setup = setup.clone();
+    if let Some(phase) = &mut setup.solid_phase {
+        phase.solids.clear();
     }
-    Err(io::Error::other(format!("it has {found} {what}, the scene {wanted}")))
+    setup
 }

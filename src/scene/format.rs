@@ -7,6 +7,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::format_free::{ContactSection, CouplingSection, GravitySection, LubricationSection};
 use super::format_grains::{GrainsSection, SolidSection};
 use super::format_run::{
     CheckpointSection, CompareSection, EngineSection, RecordSection, StopSection,
@@ -42,6 +43,14 @@ pub struct SceneFile {
     pub grains: Vec<GrainsSection>,
     /// How grains act on the fluid; the defaults where the section is absent.
     pub solid: Option<SolidSection>,
+    /// Gravity on free grains; none where the section is absent.
+    pub gravity: Option<GravitySection>,
+    /// How free grains touch; the defaults where the section is absent.
+    pub contact: Option<ContactSection>,
+    /// Lubrication between free grains; none where the section is absent.
+    pub lubrication: Option<LubricationSection>,
+    /// How fluid and free grains act on each other; the defaults where the section is absent.
+    pub coupling: Option<CouplingSection>,
     /// What to record, and how often.
     #[serde(default)]
     pub records: Vec<RecordSection>,
@@ -138,7 +147,9 @@ pub enum RatePreset {
     Srt,
 }
 
-/// The six faces.
+/// The six faces. Free grains are held back by all that are not periodic: by walls, which they touch
+/// and rub against; by mirrors, where they touch their own image; by inlets, outflows and pressure
+/// faces as by a sieve, which only the fluid passes.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacesSection {

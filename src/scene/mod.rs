@@ -3,7 +3,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `source.rs` | text, `--set`, and where each key stands |
-//! | `format.rs`, `format_grains.rs`, `format_run.rs` | the keys: names, types, and what they mean |
+//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_run.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
 //! | `units.rs` | SI units and lattice units |
 //! | `trouble.rs`, `words.rs` | the one message about what is wrong |
@@ -11,6 +11,7 @@
 
 pub mod check;
 pub mod format;
+pub mod format_free;
 pub mod format_grains;
 pub mod format_run;
 pub mod schema;
@@ -21,13 +22,17 @@ mod words;
 
 use std::path::Path;
 
+use psmrt_reference::coupling::FreeGrains;
+use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
 pub use check::checkpoint::Interval;
+pub use check::free::FreePart;
 pub use check::grains::Attachment;
 pub use check::records::{Record, Rhythm, What};
 pub use check::stop::{Steady, Stop};
+pub use format_run::EngineKind;
 pub use trouble::{SceneError, Trouble};
 pub use units::Units;
 
@@ -45,8 +50,10 @@ pub struct Scene {
     pub attachments: Vec<Attachment>,
     /// The scales.
     pub units: Units,
-    /// The box, the fluid and the solids in lattice units.
+    /// The box, the fluid and the solids in lattice units; free grains too, where they start.
     pub setup: Setup,
+    /// How the grains move, if some are free.
+    pub free: Option<FreePart>,
     /// Velocity at the start, lattice units.
     pub initial_velocity: Vec3,
     /// `time.reference_velocity`, if it is given, m/s.
@@ -59,6 +66,10 @@ pub struct Scene {
     pub stop: Stop,
     /// The exact solution to compare with.
     pub exact: Option<PlanePoiseuille>,
+    /// What is to compute it.
+    pub engine: EngineKind,
+    /// A part of the name of the adapter that is to be used, if one is named.
+    pub adapter: Option<String>,
 }
 
 impl Scene {
@@ -84,6 +95,12 @@ impl Scene {
         let file = source.read()?;
         let scene = check::scene(&file, folder).map_err(|trouble| source.error(trouble))?;
         Ok(Scene { text: source.text, ..scene })
+    }
+
+    /// The grains, ready to be moved by the loads of whatever engine computes the fluid; `None` if
+    /// none is free. Errors if they cannot be moved.
+    pub fn free_grains(&self) -> Option<Result<FreeGrains, GrainError>> {
+        self.free.as_ref().map(|free| free.free_grains(&self.setup.domain))
     }
 
     /// The same scene with its text naming the copies of its files: [`Attachment::file_name`].

@@ -50,6 +50,21 @@ impl Units {
         self.si_force() * self.si_dx
     }
 
+    /// One unit of mass, kg.
+    pub fn si_mass(&self) -> f64 {
+        self.si_density * self.si_dx.powi(3)
+    }
+
+    /// One unit of stiffness, N/m.
+    pub fn si_stiffness(&self) -> f64 {
+        self.si_mass() / (self.si_dt * self.si_dt)
+    }
+
+    /// One unit of damping, N s/m.
+    pub fn si_damping(&self) -> f64 {
+        self.si_mass() / self.si_dt
+    }
+
     /// Lattice density at a pressure (Pa) above that of density 1.
     pub fn density_at(&self, si_pressure: f64) -> f64 {
         // p = c_s² ρ

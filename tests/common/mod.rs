@@ -6,8 +6,12 @@ pub mod arrays;
 pub mod collisions;
 pub mod cuts;
 pub mod random;
+pub mod settling;
 pub mod sphere_quadrature;
+pub mod suspension;
+pub mod trials;
 
+use psmrt::kernel::Kernel;
 use psmrt_reference::solver::Solver;
 
 /// The cell updates that a test may spend on the oracle; `tests/tidy.rs` adds up the literals of all
@@ -20,6 +24,11 @@ pub struct Budget {
 impl Budget {
     /// A budget of cell updates of the oracle.
     pub fn oracle(cell_updates: u64) -> Self {
+        Budget { allowed: cell_updates, used: 0 }
+    }
+
+    /// A budget of cell updates of the kernel, which the suite adds up by themselves.
+    pub fn kernel(cell_updates: u64) -> Self {
         Budget { allowed: cell_updates, used: 0 }
     }
 
@@ -38,6 +47,12 @@ impl Budget {
     pub fn run(&mut self, solver: &mut Solver, steps: u64) {
         self.spend(steps * solver.domain().cell_count() as u64);
         solver.run(steps).unwrap_or_else(|stopped| panic!("{stopped}"));
+    }
+
+    /// Makes `steps` steps on the device.
+    pub fn advance(&mut self, kernel: &mut Kernel, steps: u64) {
+        self.spend(steps * kernel.setup().domain.cell_count() as u64);
+        kernel.advance(steps, true).unwrap_or_else(|error| panic!("{error}"));
     }
 
     /// Runs until `observe` is steady and returns its value: until three windows of `window` steps

@@ -5,8 +5,11 @@ use std::path::Path;
 use super::Trouble;
 use super::grains::Ball;
 
-/// The first line of a list of grains.
-pub const COLUMNS: [&str; 4] = ["x (m)", "y (m)", "z (m)", "diameter (m)"];
+/// The first line of a list of grains; the last column may be absent.
+pub const COLUMNS: [&str; 5] = ["x (m)", "y (m)", "z (m)", "diameter (m)", "density (kg/m3)"];
+
+/// Columns that must be there.
+const NEEDED: usize = 4;
 
 /// The contents of a file and the grains in it.
 pub(super) fn read(key: &str, path: &Path) -> Result<(Vec<u8>, Vec<Ball>), Trouble> {
@@ -15,7 +18,7 @@ pub(super) fn read(key: &str, path: &Path) -> Result<(Vec<u8>, Vec<Ball>), Troub
         let remedy = "the name is relative to the scene file";
         Trouble::new(key, format!("{shown} cannot be read: {error}"), remedy)
     })?;
-    let wanted = COLUMNS.join(",");
+    let wanted = COLUMNS[..NEEDED].join(",");
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(&bytes[..]);
     let bad = |line: u64, problem: String, remedy: String| {
@@ -26,10 +29,11 @@ pub(super) fn read(key: &str, path: &Path) -> Result<(Vec<u8>, Vec<Ball>), Troub
         Err(error) => return bad(1, error.to_string(), format!("let it start with {wanted}")),
     };
     for (number, name) in COLUMNS.iter().enumerate() {
-        if columns.get(number) != Some(name) {
+        if columns.get(number) != Some(name) && (number < NEEDED || columns.len() > NEEDED) {
             let found = columns.get(number).unwrap_or("");
             let problem = format!("column {} is \"{found}\", not \"{name}\"", number + 1);
-            return bad(1, problem, format!("let the first line be {wanted}"));
+            let remedy = format!("let the first line be {wanted} and perhaps ,{}", COLUMNS[NEEDED]);
+            return bad(1, problem, remedy);
         }
     }
     if let Some(extra) = columns.get(COLUMNS.len()) {
@@ -49,20 +53,21 @@ pub(super) fn read(key: &str, path: &Path) -> Result<(Vec<u8>, Vec<Ball>), Troub
             }
         };
         let line = row.position().map_or(1, csv::Position::line);
-        let mut values = [0.0; 4];
-        for (number, value) in values.iter_mut().enumerate() {
+        let mut values = [0.0; COLUMNS.len()];
+        for (number, value) in values.iter_mut().enumerate().take(columns.len()) {
             let text = row.get(number).unwrap_or("");
             *value = match text.parse::<f64>() {
                 Ok(value) if value.is_finite() && (number < 3 || value > 0.0) => value,
                 _ => {
                     let problem = format!("{} = \"{text}\" is not allowed", COLUMNS[number]);
-                    let remedy = "give finite numbers, and a diameter above 0";
+                    let remedy = "give finite numbers, and diameter and density above 0";
                     return bad(line, problem, remedy.to_owned());
                 }
             };
         }
-        let [x, y, z, si_diameter] = values;
-        balls.push(Ball { si_centre: [x, y, z], si_diameter });
+        let [x, y, z, si_diameter, density] = values;
+        let si_density = (columns.len() > NEEDED).then_some(density);
+        balls.push(Ball { si_centre: [x, y, z], si_diameter, si_density });
     }
     if balls.is_empty() {
         return bad(2, "there are no grains in it".to_owned(), "add a line for each".to_owned());

@@ -1,4 +1,4 @@
-//! Grains: from one sphere, a CSV file or a regular array to a list of solids.
+//! Grains: all sections together as one list, in lattice units.
 
 use std::path::Path;
 
@@ -7,18 +7,37 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
 use super::numbers::{absent, finite, needed, positive};
-use super::{MAX_SPEED, Trouble, arrays, grain_list, neighbours};
-use crate::scene::format_grains::{GrainsKind, GrainsSection, Motion};
+use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
+use crate::scene::format_grains::{GrainsSection, Motion};
 use crate::scene::units::Units;
 
 /// A grain with fewer cells across is not seen by the fluid as a sphere at all.
 pub const MIN_CELLS_PER_DIAMETER: f64 = 2.0;
+
+/// Densities of free grains over that of the fluid: beyond lie mistaken units.
+const DENSITY_RATIOS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
 /// A sphere, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ball {
     pub si_centre: [f64; 3],
     pub si_diameter: f64,
+    /// Where its file gives one.
+    pub si_density: Option<f64>,
+}
+
+/// Where grains are put down: the box, and how a key of their section is called.
+pub(super) struct Place<'a> {
+    pub at: &'a dyn Fn(&str) -> String,
+    pub domain: &'a Domain,
+    pub units: &'a Units,
+}
+
+impl Place<'_> {
+    /// Lengths of the box, m.
+    pub fn si_lengths(&self) -> [f64; 3] {
+        self.domain.cells().map(|n| n as f64 * self.units.si_dx)
+    }
 }
 
 /// The contents of a file that a scene names: a run keeps a copy.
@@ -37,98 +56,69 @@ impl Attachment {
     }
 }
 
-/// All grains of a scene in lattice units, and the files they come from.
-pub(super) fn solids(
-    sections: &[GrainsSection],
-    folder: &Path,
-    domain: &Domain,
-    units: &Units,
-) -> Result<(Vec<Solid>, Vec<Attachment>), Trouble> {
-    let (mut solids, mut attachments, mut owners) = (Vec::new(), Vec::new(), Vec::new());
-    for (number, section) in sections.iter().enumerate() {
-        let at = |key: &str| format!("grains[{number}].{key}");
-        foreign_keys(section, &at)?;
-        let (velocity, spin) = motion(section, &at, units)?;
-        for ball in balls(section, number, &at, folder, domain, units, &mut attachments)? {
-            let centre = Units::to_lattice(ball.si_centre, units.si_dx);
-            let radius = 0.5 * ball.si_diameter / units.si_dx;
-            let place = place_key(section, &at);
-            check_size(&size_key(section, &at), radius, units)?;
-            check_speed(&at("spin"), &velocity, &spin, radius)?;
-            neighbours::inside(&place, domain, &centre, radius, units)?;
-            solids.push(Solid { shape: Shape::Sphere { radius }, centre, velocity, spin });
-            owners.push(place);
+/// A grain in lattice units, with the key to blame for it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Listed {
+    pub key: String,
+    pub motion: Motion,
+    pub centre: Vec3,
+    pub radius: f64,
+    /// Over that of the fluid; 1 for grains that are not free, where it means nothing.
+    pub density: f64,
+    pub velocity: Vec3,
+    pub spin: Vec3,
+}
+
+/// All grains of a scene, and the files they come from.
+#[derive(Clone, Debug, Default)]
+pub(super) struct GrainList {
+    pub grains: Vec<Listed>,
+    pub attachments: Vec<Attachment>,
+}
+
+impl GrainList {
+    /// The grains of a scene.
+    pub fn new(
+        sections: &[GrainsSection],
+        folder: &Path,
+        domain: &Domain,
+        units: &Units,
+    ) -> Result<Self, Trouble> {
+        let mut list = GrainList::default();
+        for (number, section) in sections.iter().enumerate() {
+            let at = |key: &str| format!("grains[{number}].{key}");
+            grain_kinds::foreign_keys(section, &at)?;
+            let (velocity, spin) = motion(section, &at, units)?;
+            let place = Place { at: &at, domain, units };
+            let (balls, bytes) = grain_kinds::balls(section, folder, &place)?;
+            list.attachments.extend(bytes.map(|bytes| Attachment { section: number, bytes }));
+            for ball in balls {
+                let density = density(section, &at, &ball, units)?;
+                let centre = Units::to_lattice(ball.si_centre, units.si_dx);
+                let radius = 0.5 * ball.si_diameter / units.si_dx;
+                let (key, motion) = (grain_kinds::place_key(section, &at), section.motion);
+                check_size(&grain_kinds::size_key(section, &at), radius, units)?;
+                check_speed(&at("spin"), &velocity, &spin, radius)?;
+                neighbours::inside(&key, domain, &centre, radius, units)?;
+                list.grains.push(Listed { key, motion, centre, radius, density, velocity, spin });
+            }
         }
+        neighbours::apart(domain, &list.grains, units)?;
+        Ok(list)
     }
-    neighbours::apart(domain, &solids, &owners, units)?;
-    Ok((solids, attachments))
-}
 
-/// The key to blame for where a grain is.
-fn place_key(section: &GrainsSection, at: &impl Fn(&str) -> String) -> String {
-    match section.kind {
-        GrainsKind::Sphere => at("centre"),
-        GrainsKind::Csv => at("file"),
-        GrainsKind::Array if section.diameter.is_some() => at("diameter"),
-        GrainsKind::Array => at("solid_fraction"),
+    /// The free ones.
+    pub fn free(&self) -> impl Iterator<Item = &Listed> {
+        self.grains.iter().filter(|listed| listed.motion == Motion::Free)
     }
-}
 
-/// The key to blame for how large a grain is.
-fn size_key(section: &GrainsSection, at: &impl Fn(&str) -> String) -> String {
-    if section.kind == GrainsKind::Sphere { at("diameter") } else { place_key(section, at) }
-}
-
-/// Errors at a key that belongs to another kind.
-fn foreign_keys(section: &GrainsSection, at: &impl Fn(&str) -> String) -> Result<(), Trouble> {
-    let kind = section.kind;
-    if kind != GrainsKind::Sphere {
-        absent(&at("centre"), section.centre.as_ref(), "grains of kind `sphere`")?;
-    }
-    if kind == GrainsKind::Csv {
-        let belongs = "grains of kind `sphere` and `array`; the file has its own";
-        absent(&at("diameter"), section.diameter.as_ref(), belongs)?;
-    } else {
-        absent(&at("file"), section.file.as_ref(), "grains of kind `csv`")?;
-    }
-    if kind != GrainsKind::Array {
-        let belongs = "grains of kind `array`";
-        absent(&at("lattice"), section.lattice.as_ref(), belongs)?;
-        absent(&at("counts"), section.counts.as_ref(), belongs)?;
-        absent(&at("solid_fraction"), section.solid_fraction.as_ref(), belongs)?;
-    }
-    Ok(())
-}
-
-fn balls(
-    section: &GrainsSection,
-    number: usize,
-    at: &impl Fn(&str) -> String,
-    folder: &Path,
-    domain: &Domain,
-    units: &Units,
-    attachments: &mut Vec<Attachment>,
-) -> Result<Vec<Ball>, Trouble> {
-    match section.kind {
-        GrainsKind::Sphere => {
-            let remedy = "add `centre = [x, y, z]` in m";
-            let si_centre = needed(&at("centre"), section.centre, "a sphere needs it", remedy)?;
-            finite(&at("centre"), &si_centre, "m")?;
-            let remedy = "add `diameter`, in m";
-            let si_diameter =
-                needed(&at("diameter"), section.diameter, "a sphere needs it", remedy)?;
-            positive(&at("diameter"), si_diameter, "m")?;
-            Ok(vec![Ball { si_centre, si_diameter }])
-        }
-        GrainsKind::Csv => {
-            let remedy = "add `file = \"grains.csv\"`, relative to the scene file";
-            let because = "grains of kind `csv` need it";
-            let file = needed(&at("file"), section.file.as_deref(), because, remedy)?;
-            let (bytes, balls) = grain_list::read(&at("file"), &folder.join(file))?;
-            attachments.push(Attachment { section: number, bytes });
-            Ok(balls)
-        }
-        GrainsKind::Array => arrays::balls(section, at, domain, units),
+    /// All as solids of the fluid.
+    pub fn solids(&self) -> Vec<Solid> {
+        let solid = |listed: &Listed| {
+            let Listed { centre, radius, velocity, spin, .. } = *listed;
+            Solid { shape: Shape::Sphere { radius }, centre, velocity, spin }
+        };
+        self.grains.iter().map(solid).collect()
     }
 }
 
@@ -139,38 +129,60 @@ fn motion(
     units: &Units,
 ) -> Result<(Vec3, Vec3), Trouble> {
     match section.motion {
-        Motion::Free => Err(Trouble::new(
-            at("motion"),
-            "grains that move freely are not built yet",
-            "use \"fixed\" or \"prescribed\"",
-        )),
         Motion::Fixed => {
-            let belongs = "`motion = \"prescribed\"`";
+            let belongs = "`motion = \"prescribed\"` or \"free\"";
             absent(&at("velocity"), section.velocity.as_ref(), belongs)?;
             absent(&at("spin"), section.spin.as_ref(), belongs)?;
-            Ok((Vec3::zeros(), Vec3::zeros()))
         }
-        Motion::Prescribed => {
-            if section.velocity.is_none() && section.spin.is_none() {
-                let problem = "it needs `velocity` (m/s) or `spin` (rad/s), and has neither";
-                return Err(Trouble::new(
-                    at("motion"),
-                    problem,
-                    "add one of them, or use \"fixed\"",
-                ));
-            }
-            let velocity = match section.velocity {
-                Some(si_velocity) => super::velocity(&at("velocity"), si_velocity, units)?,
-                None => Vec3::zeros(),
-            };
-            let spin = section.spin.unwrap_or([0.0; 3]);
-            finite(&at("spin"), &spin, "rad/s")?;
-            Ok((velocity, Units::to_lattice(spin, units.si_spin())))
+        Motion::Prescribed if section.velocity.is_none() && section.spin.is_none() => {
+            let problem = "it needs `velocity` (m/s) or `spin` (rad/s), and has neither";
+            return Err(Trouble::new(at("motion"), problem, "add one of them, or use \"fixed\""));
         }
+        Motion::Prescribed | Motion::Free => {}
     }
+    let velocity = match section.velocity {
+        Some(si_velocity) => super::velocity(&at("velocity"), si_velocity, units)?,
+        None => Vec3::zeros(),
+    };
+    let spin = section.spin.unwrap_or([0.0; 3]);
+    finite(&at("spin"), &spin, "rad/s")?;
+    Ok((velocity, Units::to_lattice(spin, units.si_spin())))
 }
 
-fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Trouble> {
+/// Density of a grain over that of the fluid, if it is free; else 1.
+fn density(
+    section: &GrainsSection,
+    at: &impl Fn(&str) -> String,
+    ball: &Ball,
+    units: &Units,
+) -> Result<f64, Trouble> {
+    let key = at("density");
+    if section.motion != Motion::Free {
+        absent(&key, section.density.as_ref(), "`motion = \"free\"`")?;
+        return Ok(1.0);
+    }
+    if ball.si_density.is_some() {
+        let belongs = "grains of which the file has no column `density (kg/m3)`";
+        absent(&key, section.density.as_ref(), belongs)?;
+    }
+    let remedy = "add `density`, in kg/m3 (quartz has 2650)";
+    let si_density =
+        needed(&key, section.density.or(ball.si_density), "a free grain needs it", remedy)?;
+    positive(&key, si_density, "kg/m3, quartz has 2650")?;
+    let ratio = si_density / units.si_density;
+    if DENSITY_RATIOS.contains(&ratio) {
+        return Ok(ratio);
+    }
+    let problem = format!(
+        "it is {ratio:.3e} times the density of the fluid; {} to {} times are allowed",
+        DENSITY_RATIOS.start(),
+        DENSITY_RATIOS.end()
+    );
+    Err(Trouble::new(key, problem, "densities are in kg/m3: water has 1000, quartz 2650"))
+}
+
+/// Errors if a grain is too coarse.
+pub(super) fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Trouble> {
     if 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
         return Ok(());
     }

@@ -4,10 +4,15 @@
 mod arrays;
 pub mod checkpoint;
 mod collision;
+pub mod contact;
 pub mod domain;
 mod faces;
-mod grain_list;
+pub mod free;
+mod generated;
+mod grain_kinds;
+pub mod grain_list;
 pub mod grains;
+mod mirrors;
 mod neighbours;
 mod numbers;
 pub mod records;
@@ -17,6 +22,7 @@ mod time;
 
 use std::path::Path;
 
+use psmrt_reference::coupling::Gravity;
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SetupError};
@@ -26,6 +32,7 @@ use super::format_run::ExactName;
 use super::units::Units;
 use super::{Scene, Trouble};
 use crate::exact::PlanePoiseuille;
+use grains::GrainList;
 use numbers::{finite, positive};
 
 /// Largest speed in lattice units that a scene may set: a Mach number of 0.35, beyond which the
@@ -48,10 +55,16 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         Some(initial) => velocity("initial.velocity", initial.velocity, &units)?,
         None => Vec3::zeros(),
     };
-    let (solids, attachments) = grains::solids(&file.grains, folder, &setup.domain, &units)?;
-    setup.solid_phase = solid::solid_phase(file.solid.as_ref(), solids)?;
+    let mut list = GrainList::new(&file.grains, folder, &setup.domain, &units)?;
+    let free = free::free_part(file, &mut list, &setup.domain, tau, &units)?;
+    if let Some(Gravity::OnFluidToo { acceleration }) =
+        free.as_ref().and_then(|f| f.settings.gravity)
+    {
+        setup.body_force = Some(setup.body_force.unwrap_or_else(Vec3::zeros) + acceleration);
+    }
+    setup.solid_phase = solid::solid_phase(file.solid.as_ref(), list.solids())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
-    let records = records::records(&file.records, &setup, &units)?;
+    let records = records::records(&file.records, &setup, free.is_some(), &units)?;
     let stop = stop::stop(&file.stop, &records, &units)?;
     let exact = match file.compare.as_ref().map(|section| section.exact) {
         Some(ExactName::PlanePoiseuille) => Some(
@@ -63,15 +76,18 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     Ok(Scene {
         title: file.title.clone().unwrap_or_default(),
         text: String::new(),
-        attachments,
+        attachments: list.attachments,
         units,
         si_reference_velocity: file.time.reference_velocity,
         checkpoint: checkpoint::interval(file.checkpoint.as_ref())?,
         setup,
+        free,
         initial_velocity,
         records,
         stop,
         exact,
+        engine: file.engine.as_ref().map(|section| section.kind).unwrap_or_default(),
+        adapter: file.engine.as_ref().and_then(|section| section.adapter.clone()),
     })
 }
 

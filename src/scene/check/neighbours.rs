@@ -2,17 +2,14 @@
 
 use psmrt_reference::domain::{Domain, Face};
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::solids::{Shape, Solid};
 
 use super::Trouble;
+use super::grains::Listed;
 use crate::scene::units::Units;
 
-/// How deep two grains may overlap, in diameters of the smaller: contacts in packings from
-/// discrete-element codes are not sharp.
+/// How deep two grains may overlap, in diameters of the smaller, or a grain and a face: contacts in
+/// packings from discrete-element codes are not sharp.
 pub const MAX_OVERLAP: f64 = 0.01;
-
-/// How far a grain may stick through a wall, in cells: round-off of a grain that touches it.
-const WALL_TOLERANCE: f64 = 1e-6;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -36,7 +33,8 @@ pub(super) fn inside(
         }
         let stick_out = [radius - centre[axis], centre[axis] + radius - length];
         for (face, out) in domain.faces().axis(axis).into_iter().zip(stick_out) {
-            if out > WALL_TOLERANCE && !matches!(face, Face::Periodic | Face::FreeSlip) {
+            if out > 2.0 * radius * MAX_OVERLAP && !matches!(face, Face::Periodic | Face::FreeSlip)
+            {
                 let problem = format!(
                     "a grain at {} = {si_at:.6e} m sticks {:.3e} m out of the box (0 to \
                      {si_length:.6e} m)",
@@ -60,19 +58,10 @@ pub(super) fn inside(
     Ok(())
 }
 
-/// Errors if two grains overlap by more than [`MAX_OVERLAP`]. `keys` has the key of each grain.
-pub(super) fn apart(
-    domain: &Domain,
-    solids: &[Solid],
-    keys: &[String],
-    units: &Units,
-) -> Result<(), Trouble> {
-    let mut balls: Vec<(usize, Vec3, f64)> = Vec::new();
-    for (number, solid) in solids.iter().enumerate() {
-        if let Shape::Sphere { radius } = solid.shape {
-            balls.push((number, solid.centre, radius));
-        }
-    }
+/// Errors if two grains overlap by more than [`MAX_OVERLAP`].
+pub(super) fn apart(domain: &Domain, grains: &[Listed], units: &Units) -> Result<(), Trouble> {
+    let ball = |(number, listed): (usize, &Listed)| (number, listed.centre, listed.radius);
+    let mut balls: Vec<(usize, Vec3, f64)> = grains.iter().enumerate().map(ball).collect();
     balls.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
     let reach = 2.0 * balls.iter().map(|ball| ball.2).fold(0.0, f64::max);
     let (n, length) = (balls.len(), domain.cells()[0] as f64);
@@ -96,7 +85,7 @@ pub(super) fn apart(
                     100.0 * MAX_OVERLAP
                 );
                 let remedy = "move them apart or make them smaller";
-                return Err(Trouble::new(&keys[second], problem, remedy));
+                return Err(Trouble::new(&grains[second].key, problem, remedy));
             }
         }
     }

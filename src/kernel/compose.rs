@@ -1,0 +1,278 @@
+//! Shaders put together for one scene: what the scene does not name is not in them.
+//!
+//! The files under `wgsl/` hold lines between `//#if NAME`, `//#else` and `//#end`, which stand or fall
+//! with the scene's models. Sizes and rates are constants of the shader.
+
+use psmrt_reference::collision::Collision;
+use psmrt_reference::domain::Face;
+use psmrt_reference::partial_saturation::SolidOperator;
+use psmrt_reference::setup::Setup;
+
+use super::layout::Layout;
+use super::numbers::literal;
+use super::streaming::{access, faces, vector_access};
+
+/// Invocations of `summary`, at most: enough to keep a large device busy, few enough to read back.
+const MOST_STRANDS: u32 = 16_384;
+
+/// Cells in one row of workgroups where cells are numbered through.
+pub(super) const ROW: u32 = 65_535 * 64;
+
+/// How the solids of a scene are kept on the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SolidData {
+    /// There are none.
+    None,
+    /// None of them ever moves: the weight of each cell.
+    Fixed,
+    /// Weight and velocity of each cell that one touches.
+    Moving,
+}
+
+/// What the shaders of a scene are made from.
+#[derive(Clone, Debug)]
+pub(super) struct Recipe<'a> {
+    pub(super) setup: &'a Setup,
+    pub(super) layout: Layout,
+    pub(super) solids: SolidData,
+}
+
+/// The work that a shader does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Work {
+    /// A step of all cells; with the solids in it or without.
+    Step {
+        /// Whether the solids are in it.
+        with_solids: bool,
+    },
+    /// A step of listed cells.
+    StepListed,
+    /// Populations read out.
+    Observe,
+    /// Sums over the box.
+    Summary,
+    /// What each share of a solid receives.
+    Impulses,
+}
+
+impl Work {
+    /// The name of the entry point.
+    pub(super) fn entry(self) -> &'static str {
+        match self {
+            Work::Step { .. } => "step",
+            Work::StepListed => "step_listed",
+            Work::Observe => "observe",
+            Work::Summary => "summary",
+            Work::Impulses => "impulses",
+        }
+    }
+}
+
+impl Recipe<'_> {
+    /// Workgroup of `step`: long in x.
+    pub(super) fn workgroup(&self) -> [u32; 2] {
+        let along = self.layout.vectors().next_power_of_two().min(64);
+        [along, 64 / along]
+    }
+
+    /// Invocations of `summary`.
+    pub(super) fn strands(&self) -> u32 {
+        self.layout.places.div_ceil(32).next_multiple_of(64).min(MOST_STRANDS)
+    }
+
+    /// The shader for `work`.
+    pub(super) fn shader(&self, work: Work) -> String {
+        let (solids, listed) = match work {
+            Work::Step { with_solids } => (with_solids, false),
+            Work::StepListed | Work::Summary => (true, true),
+            Work::Observe | Work::Impulses => (false, true),
+        };
+        let steps = matches!(work, Work::Step { .. } | Work::StepListed);
+        let solids = if solids { self.solids } else { SolidData::None };
+        let is_wide = !listed && self.layout.width > 1;
+        let flags = self.flags(solids, listed, is_wide);
+        let mut text = self.constants();
+        let mut add = |file: &str| text += &selected(file, &flags);
+        if steps || work == Work::Summary {
+            if solids != SolidData::None {
+                add(include_str!("wgsl/solid_part.wgsl"));
+            }
+            if steps {
+                add(match self.setup.collision {
+                    // With solids a single relaxation time is a set of equal rates.
+                    Collision::Srt { .. } if solids == SolidData::None => {
+                        include_str!("wgsl/single.wgsl")
+                    }
+                    _ => include_str!("wgsl/moments.wgsl"),
+                });
+            }
+        }
+        if !listed {
+            add(&vector_access(&self.layout));
+        } else {
+            add(include_str!("wgsl/places.wgsl"));
+            add(include_str!("wgsl/sums.wgsl"));
+            add(&access(&self.layout, steps));
+            add(include_str!("wgsl/task.wgsl"));
+            add(&faces(&self.setup.domain, &self.layout));
+        }
+        add(match work {
+            Work::Step { .. } => include_str!("wgsl/step.wgsl"),
+            Work::StepListed => include_str!("wgsl/step_listed.wgsl"),
+            Work::Observe => include_str!("wgsl/observe.wgsl"),
+            Work::Summary => include_str!("wgsl/summary.wgsl"),
+            Work::Impulses => include_str!("wgsl/loads.wgsl"),
+        });
+        // Not an alias: naga takes arrays of an alias for another type than arrays of what it stands for.
+        with_word(&text, "real", if is_wide { "vec4<f32>" } else { "f32" })
+    }
+
+    /// The names of the models that are on.
+    fn flags(&self, solids: SolidData, listed: bool, is_wide: bool) -> Vec<&'static str> {
+        let mut flags = Vec::new();
+        let [along, across] = self.workgroup();
+        let (vectors, ny) = (self.layout.vectors(), self.layout.cells[1]);
+        if !vectors.is_multiple_of(along) || !ny.is_multiple_of(across) {
+            flags.push("RAGGED");
+        }
+        if is_wide {
+            flags.push("WIDE");
+        }
+        let forced = self.setup.body_force.is_some();
+        if forced {
+            flags.push("FORCE");
+        }
+        if solids != SolidData::None {
+            flags.push("SOLIDS");
+            if solids == SolidData::Moving {
+                flags.push("MOVING");
+            }
+            if solids == SolidData::Moving && listed {
+                flags.push("MANY");
+            }
+            let operator = self.setup.solid_phase.as_ref().map(|phase| phase.operator);
+            if operator == Some(SolidOperator::Superposition) {
+                flags.push("SUPERPOSITION");
+            }
+        }
+        if forced || solids != SolidData::None {
+            flags.push("MOMENTUM");
+        }
+        flags
+    }
+
+    fn constants(&self) -> String {
+        let [nx, ny, nz] = self.layout.cells;
+        let [along, across] = self.workgroup();
+        let [s_e, s_eps, s_q, s_nu, s_pi, s_m] = match self.setup.collision {
+            Collision::Srt { tau } => [1.0 / tau; 6],
+            Collision::Mrt { rates } => [rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m],
+        };
+        let g = self.setup.body_force.map_or([0.0; 3], Into::into).map(literal);
+        let whole = [
+            ("NX", nx),
+            ("NY", ny),
+            ("NZ", nz),
+            ("WIDTH", self.layout.width),
+            ("VECTORS", self.layout.vectors()),
+            ("ROW_PLACES", self.layout.vectors() * self.layout.width),
+            ("WORKGROUP_X", along),
+            ("WORKGROUP_Y", across),
+            ("STRANDS", self.strands()),
+            ("ROW", ROW),
+        ];
+        let real = [
+            ("S_E", s_e),
+            ("S_EPS", s_eps),
+            ("S_Q", s_q),
+            ("S_NU", s_nu),
+            ("S_PI", s_pi),
+            ("S_M", s_m),
+            ("TWO_THIRDS", 2.0 / 3.0),
+            ("MAX_SPEED2", self.setup.guard.max_speed.powi(2)),
+        ];
+        let mut text = String::new();
+        for (name, value) in whole {
+            text += &format!("const {name} = {value}u;\n");
+        }
+        for (name, value) in real {
+            text += &format!("const {name} = {};\n", literal(value));
+        }
+        for (axis, value) in ["X", "Y", "Z"].iter().zip(&g) {
+            text += &format!("const G_{axis} = {value};\n");
+        }
+        text + "const G = vec3<f32>(G_X, G_Y, G_Z);\n"
+    }
+
+    /// Places of the cells that `step` gets wrong: at faces that are not periodic, and at the ends of
+    /// rows that are no multiple of a vector. In order.
+    pub(super) fn face_cells(&self) -> Vec<u32> {
+        let domain = &self.setup.domain;
+        let is_odd = !self.layout.cells[0].is_multiple_of(self.layout.width);
+        let is_solid_face = |axis: usize, side: usize| {
+            domain.faces().axis(axis)[side] != Face::Periodic || (axis == 0 && is_odd)
+        };
+        let [nx, ny, nz] = self.layout.cells;
+        let mut cells = Vec::new();
+        for z in 0..nz {
+            for y in 0..ny {
+                let row_at_face = [(y, ny, 1), (z, nz, 2)].iter().any(|&(i, n, axis)| {
+                    (i == 0 && is_solid_face(axis, 0)) || (i + 1 == n && is_solid_face(axis, 1))
+                });
+                let row = nx * (y + ny * z);
+                if row_at_face {
+                    cells.extend(row..row + nx);
+                    continue;
+                }
+                if is_solid_face(0, 0) {
+                    cells.push(row);
+                }
+                if is_solid_face(0, 1) && (nx > 1 || !is_solid_face(0, 0)) {
+                    cells.push(row + nx - 1);
+                }
+            }
+        }
+        for cell in &mut cells {
+            *cell = self.layout.place(*cell);
+        }
+        cells.sort_unstable();
+        cells
+    }
+}
+
+/// `text` with another word in the place of `word` wherever it stands alone.
+fn with_word(text: &str, word: &str, other: &str) -> String {
+    let is_part = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    let mut done = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(position) = rest.find(word) {
+        let (before, after) = (&rest[..position], &rest[position + word.len()..]);
+        let alone = !is_part(before.chars().last()) && !is_part(after.chars().next());
+        done += before;
+        done += if alone { other } else { word };
+        rest = after;
+    }
+    done + rest
+}
+
+/// The lines of `file` that stand with these flags.
+fn selected(file: &str, flags: &[&str]) -> String {
+    let mut text = String::new();
+    // Whether the lines of each open condition stand.
+    let mut open: Vec<bool> = Vec::new();
+    for line in file.lines() {
+        if let Some(name) = line.strip_prefix("//#if ") {
+            open.push(flags.contains(&name));
+        } else if line == "//#else" {
+            if let Some(last) = open.last_mut() {
+                *last = !*last;
+            }
+        } else if line == "//#end" {
+            open.pop();
+        } else if open.iter().all(|&stands| stands) {
+            text += line;
+            text.push('\n');
+        }
+    }
+    text
+}

@@ -1,0 +1,41 @@
+//! The production kernel: the fluid, and the solids' part in it, on any GPU, in single precision.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `device.rs` | adapters, and the device opened on one |
+//! | `layout.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
+//! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
+//! | `wgsl/single.wgsl`, `wgsl/moments.wgsl` | collision, with one relaxation time and with many, and the solid part |
+//! | `streaming.rs` | streaming and faces, as WGSL |
+//! | `coverage.rs`, `sphere.rs`, `solids.rs` | what the solids cover, and its tables on the device |
+//! | `wgsl/loads.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
+//! | `fluid.rs` | [`Kernel`]: steps, and what can be seen |
+//!
+//! The populations are kept as they are after a collision, less their weights, direction by direction,
+//! in two copies. A step reads one copy and writes the other: 152 bytes per cell update. What is seen
+//! from outside is the state before the next collision, as in the oracle.
+//!
+//! **Architecture invariant:** of the oracle this takes words for set-ups only (directions, domain,
+//! solids, which models are on). Weights, equilibria, collision, faces and coverage are its own, so
+//! that each checks the other. `tests/tidy.rs` holds this.
+
+mod buffers;
+mod compose;
+mod coverage;
+mod device;
+mod error;
+mod fluid;
+mod layout;
+mod memory;
+mod numbers;
+mod pipeline;
+mod solids;
+mod sphere;
+mod streaming;
+mod watch;
+
+pub use device::{AdapterFacts, Gpu, adapters};
+pub use error::KernelError;
+pub use fluid::{Kernel, Summary};
+pub use sphere::{sampled_fraction, solid_fraction};
+pub use watch::KernelTimes;

@@ -1,0 +1,111 @@
+//! Pipelines: a shader made ready, and what it is bound to.
+
+use super::compose::{Recipe, SolidData, Work};
+use super::device::Gpu;
+use super::error::KernelError;
+
+/// A group of bindings that a shader may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Slot {
+    /// The populations that are read.
+    Old,
+    /// The populations that are written.
+    New,
+    /// Weight and velocity of the solids in each cell.
+    Solids,
+    /// What cells have in which several solids meet.
+    Excess,
+    /// Which cells are worked on.
+    Task,
+    /// Their list.
+    List,
+    /// What is read back.
+    Seen,
+    /// The shares of the solids.
+    Shares,
+}
+
+/// A shader made ready.
+#[derive(Debug)]
+pub(super) struct Pipeline {
+    raw: wgpu::ComputePipeline,
+    slots: Vec<Slot>,
+}
+
+impl Pipeline {
+    /// The pipeline for `work`. Errors if the driver refuses the shader.
+    pub(super) fn new(gpu: &Gpu, recipe: &Recipe<'_>, work: Work) -> Result<Self, KernelError> {
+        let with_solids = recipe.solids != SolidData::None;
+        let mut slots = vec![Slot::Old];
+        match work {
+            Work::Step { with_solids } => {
+                slots.push(Slot::New);
+                if with_solids {
+                    slots.push(Slot::Solids);
+                }
+            }
+            Work::StepListed => slots.extend([Slot::New, Slot::Task, Slot::List]),
+            Work::Observe => slots.extend([Slot::Task, Slot::List, Slot::Seen]),
+            Work::Summary => slots.extend([Slot::Task, Slot::Seen]),
+            Work::Impulses => slots.extend([Slot::Task, Slot::Shares]),
+        }
+        if with_solids && matches!(work, Work::StepListed | Work::Summary) {
+            slots.extend([Slot::Solids, Slot::Excess]);
+        }
+        let raw = compiled(gpu, &recipe.shader(work), work.entry())?;
+        Ok(Pipeline { raw, slots })
+    }
+
+    /// The pipeline that adds up the shares of each solid.
+    pub(super) fn gather(gpu: &Gpu) -> Result<Self, KernelError> {
+        let raw = compiled(gpu, include_str!("wgsl/gather.wgsl"), "gather")?;
+        Ok(Pipeline { raw, slots: Vec::new() })
+    }
+
+    pub(super) fn raw(&self) -> &wgpu::ComputePipeline {
+        &self.raw
+    }
+
+    pub(super) fn slots(&self) -> &[Slot] {
+        &self.slots
+    }
+
+    /// Binds buffers, whole, by the numbers of their bindings.
+    pub(super) fn bind(
+        &self,
+        gpu: &Gpu,
+        buffers: &[(u32, &wgpu::Buffer)],
+    ) -> Result<wgpu::BindGroup, KernelError> {
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = buffers
+            .iter()
+            .map(|&(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        gpu.checked(|| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &self.raw.get_bind_group_layout(0),
+                entries: &entries,
+            })
+        })
+    }
+}
+
+fn compiled(gpu: &Gpu, text: &str, entry: &str) -> Result<wgpu::ComputePipeline, KernelError> {
+    gpu.checked(|| {
+        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(entry),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
+        });
+        gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(entry),
+            layout: None,
+            module: &module,
+            entry_point: Some(entry),
+            compilation_options: Default::default(),
+            cache: None,
+        })
+    })
+}

@@ -1,0 +1,32 @@
+// Which cells are to be worked on.
+
+struct Task {
+    // How many.
+    count: u32,
+    // 0: all places in their order, 1: those of the list.
+    is_listed: u32,
+    // 0: the populations are kept as they are before a collision (at the start of a run), 1: as they
+    // are after it.
+    is_collided: u32,
+    // Records of cells in which several solids meet; they come first.
+    many: u32,
+}
+
+@group(0) @binding(50) var<uniform> task: Task;
+@group(0) @binding(51) var<storage, read> cell_list: array<u32>;
+
+fn listed(number: u32) -> u32 {
+    if (task.is_listed == 1u) {
+        return cell_list[number];
+    }
+    return number;
+}
+
+// The populations at a place before their next collision.
+fn observed(place: u32) -> array<f32, 19> {
+    if (task.is_collided == 1u) {
+        let x = coordinates(place);
+        return entering(x.x, x.y, x.z);
+    }
+    return own(place);
+}

@@ -1,0 +1,154 @@
+//! How free grains touch: from the `[contact]` section to laws in lattice units.
+
+use psmrt_reference::grains::law::{ContactLaw, Friction, LawError, Rolling};
+use psmrt_reference::grains::motion::Substeps;
+
+use super::Trouble;
+use super::numbers::{absent, positive};
+use crate::scene::format_free::ContactSection;
+use crate::scene::units::Units;
+
+/// Contact duration in time steps where a scene says nothing. The load of the fluid is held during a
+/// step and the inertia of the fluid inside comes a step late: a contact must last several steps for
+/// the fluid to take part in it, and short ones cost sub-steps. Kempe & Fröhlich, J. Fluid Mech. 709,
+/// 445 (2012), stretch contacts to ten steps for the same reason.
+pub const DEFAULT_DURATION: f64 = 10.0;
+
+/// Restitution where a scene says nothing. Grains that settle at Stokes numbers below 10 do not
+/// rebound in a liquid, whatever they do in vacuum (Gondret, Lance & Petit, Phys. Fluids 14, 643
+/// (2002)): the fluid takes the energy. What the dashpot takes serves resting contacts, which are calm
+/// after a few durations.
+pub const DEFAULT_RESTITUTION: f64 = 0.5;
+
+/// Friction where a scene says nothing: tan 27°, in the middle of what Rowe, Proc. R. Soc. A 269, 500
+/// (1962), measured for quartz grains under water (22° to 31°).
+pub const DEFAULT_FRICTION: f64 = 0.5;
+
+/// The laws of a scene, lattice units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Laws {
+    /// Between grains.
+    pub grains: ContactLaw,
+    /// Between a grain and a face: the same stiffness, and where a restitution is wanted the damping
+    /// that gives it on a wall.
+    pub walls: ContactLaw,
+}
+
+/// The laws, for free grains of which the lightest has the mass `lightest`.
+pub(super) fn laws(
+    section: &ContactSection,
+    lightest: f64,
+    units: &Units,
+) -> Result<Laws, Trouble> {
+    let key = |name: &str| format!("contact.{name}");
+    if section.stiffness.is_none() {
+        absent(&key("damping"), section.damping.as_ref(), "`stiffness`")?;
+    }
+    one_of(section.stiffness.is_some(), section.duration.is_some(), "stiffness", "duration")?;
+    one_of(section.damping.is_some(), section.restitution.is_some(), "damping", "restitution")?;
+    if section.friction == Some(0.0) {
+        absent(&key("tangential_ratio"), section.tangential_ratio.as_ref(), "`friction` above 0")?;
+    }
+    // Two of the lightest have the reduced mass m/2, one against a wall has m.
+    let pair = 0.5 * lightest;
+    let restitution = section.restitution.unwrap_or(DEFAULT_RESTITUTION);
+    let stiffness = match (section.stiffness, section.duration) {
+        (Some(si_stiffness), _) => {
+            positive(&key("stiffness"), si_stiffness, "N/m")?;
+            si_stiffness / units.si_stiffness()
+        }
+        (None, given) => {
+            let duration = match given {
+                Some(si_duration) => {
+                    positive(&key("duration"), si_duration, "s")?;
+                    si_duration / units.si_dt
+                }
+                None => DEFAULT_DURATION,
+            };
+            ContactLaw::from_duration_and_restitution(duration, restitution, pair)
+                .map_err(|error| trouble(&error))?
+                .stiffness
+        }
+    };
+    let law = |mass: f64| match section.damping {
+        Some(si_damping) => ContactLaw::new(stiffness, si_damping / units.si_damping()),
+        None => ContactLaw::from_stiffness_and_restitution(stiffness, restitution, mass),
+    };
+    let both = |mass: f64| law(mass).and_then(|law| with_friction(law, section));
+    let grains = both(pair).map_err(|error| trouble(&error))?;
+    let walls = both(lightest).map_err(|error| trouble(&error))?;
+    Ok(Laws { grains, walls })
+}
+
+/// The law with friction and rolling resistance.
+fn with_friction(law: ContactLaw, section: &ContactSection) -> Result<ContactLaw, LawError> {
+    let mut law = law;
+    let coefficient = section.friction.unwrap_or(DEFAULT_FRICTION);
+    if coefficient != 0.0 {
+        law = law.with_friction(coefficient)?;
+        if let (Some(friction), Some(ratio)) = (&mut law.friction, section.tangential_ratio) {
+            let (stiffness, damping) = (ratio * law.stiffness, ratio * law.damping);
+            *friction = Friction { stiffness, damping, ..*friction };
+        }
+    }
+    match section.rolling_resistance {
+        Some(coefficient) => law.with_rolling(coefficient),
+        None => law.checked(),
+    }
+}
+
+/// The law of a mirror plane: the contact of a grain with its own mirror image (exactly, but for a
+/// rolling spring's turn about the normal, which a plane, having no spin, takes to be half as fast).
+pub(super) fn mirror(law: &ContactLaw) -> ContactLaw {
+    // The overlap with the image is twice that with the plane, and so is the speed of approach; the
+    // two surfaces never slip. A couple per radian k_r (R/2)² (2 θ) is (k_r/2) R² θ; its limit
+    // μ_r (R/2) F_n is (μ_r/2) R F_n.
+    ContactLaw {
+        stiffness: 2.0 * law.stiffness,
+        damping: 2.0 * law.damping,
+        friction: None,
+        rolling: law.rolling.map(|rolling| Rolling {
+            coefficient: 0.5 * rolling.coefficient,
+            stiffness: 0.5 * rolling.stiffness,
+            damping: 0.5 * rolling.damping,
+        }),
+    }
+}
+
+/// How the sub-steps are chosen.
+pub(super) fn substeps(section: &ContactSection) -> Result<Substeps, Trouble> {
+    let Some(given) = section.substeps else { return Ok(Substeps::Automatic) };
+    match u32::try_from(given) {
+        Ok(count @ 1..=2500) => Ok(Substeps::Fixed(count)),
+        _ => {
+            let problem = "it must be a whole number between 1 and 2500";
+            Err(Trouble::new("contact.substeps", problem, "leave it out to have it chosen"))
+        }
+    }
+}
+
+/// Errors if both of two keys are given that set the same thing.
+fn one_of(first: bool, second: bool, name: &str, other: &str) -> Result<(), Trouble> {
+    if !(first && second) {
+        return Ok(());
+    }
+    let problem = format!("the section has both `{name}` and `{other}`, which set the same thing");
+    Err(Trouble::new(format!("contact.{other}"), problem, "give one of them"))
+}
+
+/// The key to blame for a law that cannot be used.
+pub(super) fn trouble(error: &LawError) -> Trouble {
+    let LawError::BadValue { key, allowed, .. } = error;
+    let (name, remedy) = match *key {
+        "restitution" => ("restitution", "0.5 is usual for grains in water"),
+        "contact duration" => ("duration", "give a time in s, some time steps long"),
+        "stiffness" => ("stiffness", "give a stiffness in N/m above 0, or `duration`"),
+        "damping" => ("damping", "give a damping in N s/m, or `restitution`"),
+        "friction coefficient" => ("friction", "0.5 is usual for sand"),
+        "tangential stiffness" => ("tangential_ratio", "2/7 = 0.2857 is usual"),
+        "tangential damping" => ("tangential_ratio", "2/7 = 0.2857 is usual"),
+        "rolling coefficient" => ("rolling_resistance", "0.1 is usual for rounded sand"),
+        _ => return Trouble::new("contact", error.to_string(), "change the value"),
+    };
+    Trouble::new(format!("contact.{name}"), format!("it {allowed}"), remedy)
+}

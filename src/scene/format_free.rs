@@ -1,0 +1,94 @@
+//! The keys that only scenes with free grains have: contact, lubrication, gravity, coupling.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::format::Triple;
+
+/// How free grains touch each other, grains that are held, and the faces of the box. Give the normal
+/// spring by `stiffness` or by `duration`, the dashpot by `damping` or by `restitution`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactSection {
+    /// Stiffness of the normal spring, N/m.
+    pub stiffness: Option<f64>,
+    /// With `stiffness`: damping of the normal dashpot, N s/m.
+    pub damping: Option<f64>,
+    /// Instead of `stiffness`: how long two of the lightest free grains touch in a central impact, s;
+    /// 10 time steps where neither is given.
+    pub duration: Option<f64>,
+    /// Instead of `damping`: speed of parting over speed of meeting of such an impact in vacuum, 0.01
+    /// to 1; 0.5 where neither is given.
+    pub restitution: Option<f64>,
+    /// Coulomb's coefficient of friction, 0 for smooth grains; 0.5 where absent.
+    pub friction: Option<f64>,
+    /// Tangential over normal stiffness, and damping alike, above 0; 2/7 where absent: then a sphere
+    /// swings tangentially in the time in which it swings normally.
+    pub tangential_ratio: Option<f64>,
+    /// Coefficient of rolling resistance: the tangent of the slope down which a grain just rolls;
+    /// grains roll freely where absent.
+    pub rolling_resistance: Option<f64>,
+    /// Sub-steps of the grains in a time step; as many as the contacts need (25 in the shortest) where
+    /// absent. Fewer than 10 in the shortest contact are refused.
+    pub substeps: Option<i64>,
+}
+
+/// The part of the lubrication between close surfaces that the grid does not resolve; none where the
+/// section is absent.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LubricationSection {
+    /// Gap from which the correction acts, m; the edge of a cell where absent.
+    pub cutoff_gap: Option<f64>,
+    /// Gap below which it grows no more, m: the roughness of the grains; a thousandth of the smallest
+    /// radius where absent.
+    pub smallest_gap: Option<f64>,
+}
+
+/// Gravity on free grains.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GravitySection {
+    /// Acceleration, m/s2.
+    pub acceleration: Triple,
+    /// `reduced` (the default: grains carry their weight less their buoyancy, the pressure is that
+    /// above the hydrostatic one) or `body_force` (fluid and grains carry their weight; the buoyancy
+    /// is too small on coarse grids).
+    #[serde(default)]
+    pub form: GravityForm,
+}
+
+/// How gravity acts.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum GravityForm {
+    /// By reduced pressure.
+    #[default]
+    Reduced,
+    /// As a body force on the fluid too.
+    BodyForce,
+}
+
+/// How fluid and free grains act on each other.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CouplingSection {
+    /// Inertia of the fluid inside a grain: `lagged` (given back a step later, the default) or `kept`.
+    #[serde(default)]
+    pub internal_fluid: InternalFluidName,
+    /// Whether the mean of the last two loads drives a grain, instead of the last; `false` where
+    /// absent.
+    #[serde(default)]
+    pub average_loads: bool,
+}
+
+/// What becomes of the inertia of the fluid inside a grain.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum InternalFluidName {
+    /// Given back one step later.
+    #[default]
+    Lagged,
+    /// Stays with the grain.
+    Kept,
+}
