@@ -63,7 +63,7 @@ fn precisions() {
 
 fn mistakes() {
     let folder = folder("numpy_mistakes");
-    let table = conformance::confusion(&folder);
+    let table = conformance::confusion(&folder, "f64");
     let golden = fs::read_to_string(sources().join("confusion.csv")).unwrap();
     let golden: Vec<&str> = golden.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(table.lines().collect::<Vec<_>>(), golden, "see examples/confusion.rs");

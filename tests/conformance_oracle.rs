@@ -22,11 +22,18 @@ fn cell_updates(kit: &Kit) -> u64 {
     kit.problems.iter().map(|solved| updates(&solved.problem.task)).sum()
 }
 
+/// The kit. Its scenes take 20,700 cell updates of the oracle each time it is made, which the tests of
+/// the kit in all files do some fifty times.
+fn make_kit() -> Kit {
+    let mut budget = Budget::oracle(1_500_000);
+    let kit = Kit::make().unwrap();
+    budget.spend(50 * cell_updates(&kit));
+    kit
+}
+
 #[test]
 fn oracle_passes_its_own_kit_without_any_error() {
-    let mut budget = Budget::oracle(100_000);
     let verdict = judge(&mut Oracle).unwrap();
-    budget.spend(2 * cell_updates(&Kit::make().unwrap())); // the kit, and the candidate
     assert!(verdict.passed(), "{verdict}");
     assert_eq!(verdict.attempted(), verdict.judged.len());
     assert!(verdict.largest_error() == 0.0 && verdict.diagnosis.is_none());
@@ -34,9 +41,7 @@ fn oracle_passes_its_own_kit_without_any_error() {
 
 #[test]
 fn model_of_the_diagnosis_agrees_with_the_oracle() {
-    let mut budget = Budget::oracle(100_000);
-    let kit = Kit::make().unwrap();
-    budget.spend(cell_updates(&kit));
+    let kit = make_kit();
     let model = Model::right();
     for solved in &kit.problems {
         let found = model.answer(&solved.problem).values;
@@ -131,8 +136,8 @@ impl Candidate for Rounded {
 
 #[test]
 fn oracle_rounded_to_single_and_half_precision_passes_by_these_and_fails_by_a_higher() {
-    let mut budget = Budget::oracle(500_000);
-    let kit = Kit::make().unwrap();
+    let mut budget = Budget::oracle(200_000);
+    let kit = make_kit();
     for precision in [Precision::F64, Precision::F32, Precision::F16Storage] {
         let verdict = judge(&mut Rounded(precision)).unwrap();
         budget.spend(2 * cell_updates(&kit));
@@ -221,7 +226,7 @@ fn any_order_of_directions_is_sorted_by_the_judge() {
 
 #[test]
 fn every_mistake_shows_and_is_named_when_the_model_makes_it() {
-    let kit = Kit::make().unwrap();
+    let kit = make_kit();
     for entry in &CATALOGUE {
         let model = Model::mistaken(entry.mistake, &DirectionOrder::default());
         let mut submission = Submission::gather(&kit, |problem| Some(model.answer(problem).values));
@@ -247,7 +252,7 @@ fn catalogue_is_in_the_order_of_its_names_and_large_enough() {
 
 #[test]
 fn two_mistakes_at_once_are_explained_problem_by_problem() {
-    let kit = Kit::make().unwrap();
+    let kit = make_kit();
     let mistakes = ["force_sign", "wall_on_node"].map(|name| {
         let entry = CATALOGUE.iter().find(|entry| entry.name == name).unwrap();
         Model::mistaken(entry.mistake, &DirectionOrder::default())
@@ -269,7 +274,7 @@ fn two_mistakes_at_once_are_explained_problem_by_problem() {
 
 /// The findings on one answer of the oracle after `spoil` has changed its values.
 fn findings(problem: &str, answer: &str, spoil: impl Fn(&mut [f64])) -> String {
-    let kit = Kit::make().unwrap();
+    let kit = make_kit();
     let submission = Submission::gather(&kit, |asked| {
         let solved = kit.problems.iter().find(|solved| solved.problem.id == asked.id)?;
         let expected = solved.expected.iter().find(|expected| expected.spec.name == answer)?;

@@ -5,8 +5,9 @@
 
 Reads the problems of KIT and writes answers to OUT. It is a third opinion on the oracle, an example for
 your own candidate, and, with --mistake, the patient on which the judge's diagnosis is tested: each name
-of `psmrt oracle mistakes` plants that one mistake (`--mistake all` answers once for each, in folders of
-their names). Cells are the first axis of all arrays, directions the last.
+of `psmrt oracle mistakes` plants that one mistake; for several names, with commas between them, it answers
+once for each. Answers with a mistake go to OUT/NAME. Cells are the first axis of all arrays, directions
+the last.
 """
 
 import argparse
@@ -28,6 +29,22 @@ AXES = {name: (axis, side) for axis, pair in enumerate(("-x +x", "-y +y", "-z +z
         for side, name in enumerate(pair.split())}
 
 
+MISTAKES = """
+    weights_swapped opposites_in_pairs opposites_mirrored moments_not_orthogonal moments_reordered
+    equilibrium_linear equilibrium_three equilibrium_without_square optimised_constants
+    constant_density eq2_without_tau eq4_without_tau s9_is_tau s_hat_without_blank s_hat_13th
+    pi_rate_is_eps rates_q_and_m_swapped rates_e_and_eps_swapped viscosity_without_third
+    viscosity_without_half velocity_without_half_force source_without_half_rate naive_force
+    body_force_not_weighted eq5_sign full_bounce_back b_is_epsilon fluid_part_not_weighted
+    solid_with_half_force solid_at_rest rotation_missing spin_reversed superposition_tau
+    other_operator weights_not_shared force_sign force_without_weight torque_arm_not_wrapped
+    arm_not_wrapped torque_about_origin torque_reversed coverage_staircase coverage_linear
+    radius_is_diameter coverage_not_updated wall_on_node moving_wall_without_two moving_wall_sign
+    moving_wall_density_one free_slip_is_no_slip pressure_sign pressure_without_velocity
+    faces_ignored streaming_reversed stream_before_collision contact_pulls contact_damping_sign
+    slip_without_spin coulomb_missing arms_are_radii second_torque_reversed drag_law_printed
+    settling_reynolds_printed bed_is_a_cube
+""".split()
 NUMBERS = {tuple(c): a for a, c in enumerate(C.tolist())}
 
 
@@ -523,7 +540,7 @@ def main():
     parser.add_argument("kit", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--precision", default="f64", choices=["f64", "f32", "f16-storage"])
-    parser.add_argument("--mistake", help="comma-separated names plant one after the other; see above")
+    parser.add_argument("--mistake", help="names with commas between them; see above")
     parser.add_argument("--stages", default="0-8")
     arguments = parser.parse_args()
     first, _, last = arguments.stages.partition("-")
@@ -533,6 +550,8 @@ def main():
         answer(arguments.kit, manifest, arguments.out, arguments.precision, None, stages)
         return
     for mistake in arguments.mistake.split(","):
+        if mistake not in MISTAKES:
+            parser.error(f"there is no mistake {mistake}; there are {', '.join(MISTAKES)}")
         out = arguments.out / mistake
         answer(arguments.kit, manifest, out, arguments.precision, mistake, stages)
 

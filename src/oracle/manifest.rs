@@ -10,9 +10,10 @@ use serde_json::Value;
 
 use super::KIT_VERSION;
 use super::array::Array;
-use super::given::{inputs, kind, parameters};
+use super::given::inputs;
 use super::judge::LIMIT;
 use super::kit::{Kit, Solved};
+use super::parameters::{kind, parameters};
 use super::precision::Precision;
 use super::problem::STAGES;
 

@@ -3,7 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`problem`], [`task`], [`problems`] | what is asked |
-//! | [`spec`], [`given`] | names and shapes of what is answered and given |
+//! | [`spec`], [`given`], [`parameters`] | names and shapes of what is answered and given |
 //! | [`candidate`] | what a Rust engine implements to be judged |
 //! | [`mod@reference`] | the oracle's answers |
 //! | [`model`], [`mistakes`] | a second implementation with gauges, and a switch for each mistake |
@@ -27,6 +27,7 @@ pub mod mistakes;
 pub mod model;
 pub mod npy;
 pub mod order;
+pub mod parameters;
 pub mod precision;
 pub mod problem;
 pub mod problems;

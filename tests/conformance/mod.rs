@@ -62,15 +62,19 @@ pub fn verdict(kit: &Kit, folder: &Path) -> Verdict {
     judge_submission(kit, &submission)
 }
 
-/// The confusion table: what the judge says of the NumPy candidate with each mistake planted.
-pub fn confusion(folder: &Path) -> String {
+/// The confusion table: what the judge says of the NumPy candidate, in the given precision, with each
+/// mistake planted.
+pub fn confusion(folder: &Path, precision: &str) -> String {
     let kit = Kit::make().expect("the kit can be made");
     let names: Vec<&str> = CATALOGUE.iter().map(|entry| entry.name).collect();
     // Two processes, for two cores.
     let halves = names.chunks(names.len().div_ceil(2)).enumerate().map(|(half, names)| {
         let out = folder.join(format!("half_{half}"));
-        let mut command =
-            numpy_candidate(&folder.join("kit"), &out, &["--mistake", &names.join(",")]);
+        let mut command = numpy_candidate(
+            &folder.join("kit"),
+            &out,
+            &["--precision", precision, "--mistake", &names.join(",")],
+        );
         (names, out, std::thread::spawn(move || run(&mut command)))
     });
     let halves: Vec<_> = halves.collect();
