@@ -1,6 +1,8 @@
 //! What can be told about a scene before it runs: derived numbers, which models are on, what it
 //! will cost, and what looks risky.
 
+mod grains;
+
 use std::time::{Duration, Instant};
 
 use psmrt_reference::collision::Collision;
@@ -60,6 +62,10 @@ fn si_velocity(scene: &Scene) -> Option<(f64, &'static str)> {
     });
     let speeds = faces.chain(solids).chain([scene.initial_velocity.norm()]);
     let most = speeds.fold(0.0, f64::max);
+    let settling = grains::stokes_velocity(scene);
+    if settling > most {
+        return Some((settling * scene.units.si_velocity(), "Stokes' law for the fastest grain"));
+    }
     (most > 0.0).then(|| (most * scene.units.si_velocity(), "the fastest face, grain or start"))
 }
 
@@ -129,6 +135,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
             .sum();
         numbers.push(number("solid fraction", volume / count as f64, "", "grains over box"));
     }
+    numbers.extend(grains::numbers(scene));
     let memory = (count as u64 * BYTES_PER_CELL) as f64 / f64::from(1 << 20);
     numbers.push(number("memory", memory, "MiB", "populations, engine reference"));
     let (steps, si_time) = (scene.stop.steps as f64, scene.stop.steps as f64 * units.si_dt);
@@ -180,6 +187,7 @@ pub fn models(scene: &Scene) -> Vec<String> {
             models.push("moving grains: coverage is found again in every step".to_owned());
         }
     }
+    models.extend(grains::models(scene));
     if setup.body_force.is_some() {
         models.push("body force: Guo (body_force)".to_owned());
     }
@@ -200,6 +208,7 @@ pub fn models(scene: &Scene) -> Vec<String> {
             What::Slice { .. } => "pictures of a slice",
             What::Fields { .. } => "fields",
             What::Grains => "grains",
+            What::GrainMeans => "means over the free grains",
         };
         models.push(format!("record {}: {what}, {}", record.name, record.rhythm));
     }
@@ -248,10 +257,20 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
             warn(reason, "use a finer grid: the flow has structures smaller than a cell");
         }
     }
+    // Figures: golden/sphere_arrays/study.csv, SC at 0.065, MRT with d'Humieres' rates, weight NT.
     if let Some((low, _)) = diameters(scene).filter(|(low, _)| *low < 8.0) {
-        let reason =
-            format!("a grain is {low:.1} cells across: its drag depends on tau by tens of percent");
-        warn(reason, "use 8 cells or more (a smaller `domain.dx`), and tau near 1");
+        let reason = format!(
+            "a grain is {low:.1} cells across: its drag is too small by tens of percent, the more the \
+             larger tau is (in a dilute array at 4 cells by 17 % at tau 0.6, 25 % at 0.8, 32 % at 1, 44 % \
+             at 1.5; at 8 cells by 3, 6, 9 and 14 %)"
+        );
+        warn(reason, "use 8 cells or more (a smaller `domain.dx`), and tau of 0.6 to 0.8");
+    } else if diameters(scene).is_some_and(|(low, _)| low < 16.0 && tau >= 1.5) {
+        let reason = format!(
+            "tau = {tau:.2} with grains of fewer than 16 cells: their drag is too small (in a dilute array \
+             at 8 cells by 14 % at tau 1.5 and 20 % at 2, but 6 % at 0.8)"
+        );
+        warn(reason, "use a shorter time step (a smaller `time.tau`)");
     }
     let faces = scene.setup.domain.faces();
     let has = |wanted: fn(&Face) -> bool| (0..3).any(|axis| faces.axis(axis).iter().any(wanted));
@@ -260,6 +279,9 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     {
         let reason = "a velocity inlet with a free outflow leaves the mean density free".to_owned();
         warn(reason, "use a `pressure` outlet, or watch the column density of a record `box`");
+    }
+    for Warning { reason, remedy } in grains::warnings(scene) {
+        warn(reason, &remedy);
     }
     if scene.records.is_empty() && scene.exact.is_none() {
         warn("nothing is recorded".to_owned(), "add [[records]]");

@@ -11,6 +11,7 @@
 //! | [`estimate`] | what a scene will be, cost and risk |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`command`] | the commands of the command line |
+//! | [`packing`] | numbers and sizes of grains to pack |
 //! | [`machine`] | what this machine has |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -23,5 +24,6 @@ pub mod exact;
 pub mod kernel;
 pub mod machine;
 pub mod output;
+pub mod packing;
 pub mod run;
 pub mod scene;

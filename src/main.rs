@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
+use psmrt::command::pack::PackRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::{self, CommandError};
@@ -77,6 +78,12 @@ Examples:
         #[arg(long, value_name = "FILE")]
         checkpoint: Option<PathBuf>,
     },
+    /// Packs grains and writes them as a list that scenes read
+    #[command(after_help = "Examples:
+  psmrt pack --size 1e-3,1e-3,1e-3 --diameter 1e-4 --porosity 0.4 --out packing.csv
+  psmrt pack --size 1e-3,1e-3,1e-3 --count 1000 --porosity 0.4 --out packing.csv
+  psmrt pack --bed --size 1e-3,1e-3 --diameter 1e-4 --count 500 --walls --out bed.csv")]
+    Pack(PackRequest),
     /// Says what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -140,6 +147,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Resume { dir, checkpoint } => {
             command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })
         }
+        Command::Pack(request) => command::pack::pack(&request, json),
         Command::Info => {
             command::info::info(json);
             Ok(())

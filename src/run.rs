@@ -8,8 +8,9 @@ use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
 use crate::engine::{Engine, EngineStop};
+use crate::output::grain_means;
 use crate::output::records::{Recorder, box_row};
-use crate::scene::{Interval, Rhythm, Scene, Steady};
+use crate::scene::{Interval, Rhythm, Scene, Steady, What};
 
 /// A run that could not go on.
 #[derive(Debug, Error)]
@@ -198,7 +199,10 @@ impl Quiet {
         if !scene.records[self.steady.record].rhythm.is_due(engine.steps()) {
             return;
         }
-        let value = box_row(scene, engine)[self.steady.column];
+        let value = match scene.records[self.steady.record].what {
+            What::GrainMeans => grain_means::row(scene, engine)[self.steady.column],
+            _ => box_row(scene, engine)[self.steady.column],
+        };
         if let Some(last) = self.last {
             let change = (value - last).abs() / value.abs();
             self.rows = if change <= self.steady.tolerance { self.rows + 1 } else { 0 };

@@ -1,6 +1,7 @@
 //! A run that is killed at any moment goes on, and ends with the same bytes as one that was not.
 
 mod cli;
+mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 use cli::{Folder, psmrt, stderr};
+use common::Budget;
 
 /// A sphere that moves through a box, all kinds of records, in half a second of computing.
 const SCENE: &str = r#"
@@ -51,12 +53,63 @@ every_steps = 20
 steps = 600
 "#;
 
+/// A free sphere thrown onto two more, with friction, and a wall that moves: contacts come and go.
+const FREE_SCENE: &str = r#"
+[domain]
+cells = [16, 12, 14]
+dx = 4e-5
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-5
+[time]
+tau = 0.6
+[faces]
+z_low = { kind = "wall", velocity = [5e-2, 0.0, 0.0] }
+z_high.kind = "wall"
+[gravity]
+acceleration = [0.0, 0.0, -9.81]
+[contact]
+friction = 0.4
+rolling_resistance = 0.05
+[lubrication]
+[coupling]
+average_loads = true
+[[grains]]
+kind = "csv"
+file = "grains.csv"
+motion = "free"
+velocity = [0.0, 0.0, -0.1]
+[[records]]
+name = "loads"
+kind = "loads"
+every_steps = 3
+[[records]]
+name = "means"
+kind = "grain_means"
+every_steps = 5
+[[records]]
+name = "grains"
+kind = "grains"
+every_steps = 50
+[checkpoint]
+every_steps = 8
+[stop]
+steps = 400
+"#;
+
+const GRAINS: &str = "x (m),y (m),z (m),diameter (m),density (kg/m3)
+3.5e-4,2.3e-4,3.1e-4,1.6e-4,2500
+2.9e-4,2.4e-4,1.2e-4,2.0e-4,2500
+4.6e-4,1.5e-4,0.9e-4,1.6e-4,8000
+";
+
 /// Every file with results, and its bytes.
 fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    const KINDS: [&str; 5] = ["csv", "npy", "vtp", "pvd", "svg"];
     let mut found = Vec::new();
-    for folder in [folder.to_owned(), folder.join("fields")] {
-        for path in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-            if path.extension().is_some_and(|suffix| suffix == "csv" || suffix == "npy") {
+    for folder in [folder.to_owned(), folder.join("fields"), folder.join("grains")] {
+        for path in fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path()) {
+            if path.extension().is_some_and(|suffix| KINDS.iter().any(|kind| suffix == *kind)) {
                 let bytes = fs::read(&path).unwrap();
                 found.push((path.file_name().unwrap().into(), bytes));
             }
@@ -88,6 +141,8 @@ fn assert_same(a: &[(PathBuf, Vec<u8>)], b: &[(PathBuf, Vec<u8>)], what: &str) {
 
 /// The reference, and how long it took.
 fn uninterrupted(folder: &Folder, scene: &Path) -> (Vec<(PathBuf, Vec<u8>)>, Duration) {
+    // For the three tests of this file that compare one run with the whole.
+    Budget::oracle(8_400_000).spend(3 * 2 * 600 * 16 * 12 * 12);
     let out = folder.path("whole");
     let begin = std::time::Instant::now();
     assert!(start(scene, &out).wait().unwrap().success());
@@ -96,10 +151,25 @@ fn uninterrupted(folder: &Folder, scene: &Path) -> (Vec<(PathBuf, Vec<u8>)>, Dur
 
 #[test]
 fn a_run_killed_again_and_again_ends_with_the_same_bytes() {
-    let folder = Folder::new("killed");
-    let scene = folder.write("scene.toml", SCENE);
+    // The whole run and four that are killed, which do some steps twice.
+    Budget::oracle(8_100_000).spend(5 * 700 * 16 * 12 * 12);
+    // Tables and pictures of them, and 4 times 3 arrays.
+    killed_again_and_again("killed", SCENE, 3 + 3 + 3 * 4);
+}
+
+#[test]
+fn a_run_with_free_grains_that_touch_ends_with_the_same_bytes_too() {
+    Budget::oracle(7_000_000).spend(5 * 500 * 16 * 12 * 14);
+    // The list of grains, two tables and their pictures, 9 files of grains and their series.
+    killed_again_and_again("killed_free", FREE_SCENE, 1 + 4 + 9 + 1);
+}
+
+fn killed_again_and_again(name: &str, text: &str, files: usize) {
+    let folder = Folder::new(name);
+    folder.write("grains.csv", GRAINS);
+    let scene = folder.write("scene.toml", text);
     let (whole, took) = uninterrupted(&folder, &scene);
-    assert_eq!(whole.len(), 3 + 3 * 4);
+    assert_eq!(whole.len(), files, "{:?}", whole.iter().map(|(name, _)| name).collect::<Vec<_>>());
     // Moments spread over the run by the golden ratio, also before the first checkpoint.
     for trial in 0..4_u32 {
         let out = folder.path(&format!("killed_{trial}"));
@@ -190,6 +260,17 @@ fn a_folder_that_is_no_run_is_refused() {
     let output = psmrt(&["resume", folder.path("").to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("no folder of a run"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_run_killed_before_its_scene_was_written_says_what_to_do() {
+    let folder = Folder::new("too_soon");
+    folder.write("scene.toml.part", &SCENE[..20]);
+    let path = folder.path("");
+    let output = psmrt(&["resume", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("killed before it had written its scene"), "{output:?}");
+    assert!(stderr(&output).contains("psmrt run"), "{output:?}");
 }
 
 #[cfg(unix)]

@@ -1,11 +1,13 @@
 //! The command line as a newcomer uses it.
 
 mod cli;
+mod common;
 
 use std::fs;
 use std::path::Path;
 
 use cli::{Folder, psmrt, psmrt_in, stderr, stdout};
+use common::Budget;
 use serde_json::Value;
 
 const POISEUILLE: &str = "golden/poiseuille/scene.toml";
@@ -16,27 +18,31 @@ fn json(output: &std::process::Output) -> Value {
 }
 
 /// Runs the Poiseuille scene with changes; its comparison.
-fn poiseuille(folder: &Folder, name: &str, changes: &[&str]) -> Value {
+fn poiseuille(budget: &mut Budget, folder: &Folder, name: &str, changes: &[&str]) -> Value {
     let out = folder.path(name);
     let mut arguments = vec!["run", POISEUILLE, "--json", "--out", out.to_str().unwrap()];
     changes.iter().for_each(|change| arguments.extend(["--set", change]));
     let output = psmrt(&arguments);
     assert!(output.status.success(), "{}", stderr(&output));
-    json(&output)["comparison"].clone()
+    let found = json(&output);
+    // A column of 32 cells.
+    budget.spend(32 * found["run"]["steps"].as_u64().unwrap());
+    found["comparison"].clone()
 }
 
 #[test]
 fn the_poiseuille_scene_is_exact_and_other_rates_err_by_the_known_slip() {
     let folder = Folder::new("poiseuille");
+    let mut budget = Budget::oracle(4_000_000);
     let error = |found: &Value, key: &str| found[key].as_f64().unwrap();
-    let magic = poiseuille(&folder, "magic", &[]);
+    let magic = poiseuille(&mut budget, &folder, "magic", &[]);
     // The run stops when 500 steps change the flow by 1e-12; 0.6 of that is left to go.
     assert!(error(&magic, "relative_l2") < 1e-12, "{magic}");
     for (name, changes) in [
         ("dhumieres", &["collision={ rates = \"dhumieres\" }"] as &[&str]),
         ("srt", &["collision={ model = \"srt\" }", "time.tau=1.5"]),
     ] {
-        let found = poiseuille(&folder, name, changes);
+        let found = poiseuille(&mut budget, &folder, name, changes);
         let (l2, explained) = (error(&found, "relative_l2"), error(&found, "explained_l2"));
         assert!(l2 > 1e-4 && (l2 / explained - 1.0).abs() < 1e-5, "{name}: {found}");
     }
@@ -56,7 +62,8 @@ fn the_poiseuille_scene_is_exact_and_other_rates_err_by_the_known_slip() {
 #[test]
 fn a_run_can_be_repeated_from_its_folder() {
     let folder = Folder::new("repeated");
-    poiseuille(&folder, "first", &["time.tau=0.7", "stop.steps=1500"]);
+    let mut budget = Budget::oracle(48_000);
+    poiseuille(&mut budget, &folder, "first", &["time.tau=0.7", "stop.steps=1500"]);
     let scene = folder.path("first/scene.toml");
     let out = folder.path("again");
     let arguments = ["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()];
@@ -133,6 +140,9 @@ fn a_broken_run_says_why_and_exits_with_1() {
 fn info_schema_and_completions_print_what_they_should() {
     let info = json(&psmrt(&["info", "--json"]));
     assert!(info["machine"]["threads"].as_u64().unwrap() >= 1);
+    // Known where there is git; a run's folder has it too, as part of the program.
+    assert!(info["program"]["modified"].is_boolean() || info["program"]["modified"].is_null());
+    assert!(info["program"]["commit"].is_string() || info["program"]["modified"].is_null());
     assert!(stdout(&psmrt(&["info"])).contains("engines"));
     let schema = json(&psmrt(&["schema"]));
     assert_eq!(schema["title"], "psmrt scene");

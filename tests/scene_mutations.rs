@@ -5,13 +5,15 @@ use std::path::Path;
 use proptest::prelude::*;
 use psmrt::scene::Scene;
 
-const SCENES: [&str; 2] = [
+const SCENES: [&str; 4] = [
     include_str!("../golden/poiseuille/scene.toml"),
     include_str!("../golden/sphere_arrays/scene.toml"),
+    include_str!("../golden/stokes_settling/scene.toml"),
+    include_str!("../golden/cloud_settling/scene.toml"),
 ];
 
 /// Pieces that are put in: valid and less valid TOML.
-const PIECES: [&str; 24] = [
+const PIECES: [&str; 29] = [
     "nan",
     "-inf",
     "1e400",
@@ -36,6 +38,11 @@ const PIECES: [&str; 24] = [
     "é",
     "🦀",
     "steps = 3\n",
+    "[contact]\nduration = 1e-4\n",
+    "[lubrication]\n",
+    "kind = \"random\"\ncount = 30\n",
+    "kind.free_slip",
+    "form = \"body_force\"\n",
 ];
 
 /// One change of a text.

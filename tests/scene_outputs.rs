@@ -1,12 +1,14 @@
 //! Fields and grains as files: what NumPy and VTK read is what was computed.
 
 mod cli;
+mod common;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use cli::{Folder, psmrt, stderr};
+use common::Budget;
 
 const SCENE: &str = r#"
 [domain]
@@ -24,6 +26,12 @@ z_high = { kind = "wall", velocity = [1e-3, 0.0, 0.0] }
 kind = "sphere"
 centre = [3e-4, 2e-4, 2e-4]
 diameter = 2.5e-4
+[[grains]]
+kind = "sphere"
+centre = [5.99e-4, 4e-4, 2.9e-4]
+diameter = 2.1e-4
+density = 2000.0
+motion = "free"
 [[records]]
 name = "fields"
 kind = "fields"
@@ -38,6 +46,7 @@ steps = 40
 "#;
 
 fn run(folder: &Folder) -> PathBuf {
+    Budget::oracle(4_800).spend(40 * 6 * 5 * 4);
     let scene = folder.write("scene.toml", SCENE);
     let out = folder.path("out");
     let output = psmrt(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()]);
@@ -74,8 +83,8 @@ fn arrays_have_the_shape_and_order_of_the_box() {
     assert!(mean(3, 0) > 100.0 * mean(3, 1).abs());
     let (shape, fraction) = npy(&out.join("fields/solid_fraction_000000000040.npy"));
     assert_eq!(shape, "4, 5, 6,");
-    // The volume of the sphere, in cells.
-    let volume = std::f64::consts::PI / 6.0 * 2.5_f64.powi(3);
+    // The volume of the spheres, in cells.
+    let volume = std::f64::consts::PI / 6.0 * (2.5_f64.powi(3) + 2.1_f64.powi(3));
     assert!((fraction.iter().sum::<f64>() / volume - 1.0).abs() < 1e-9);
 }
 
@@ -125,11 +134,18 @@ for step in ["000000000000", "000000000020", "000000000040"]:
         cells = vtk_to_numpy(image.GetCellData().GetArray(name)).reshape(shape)
         assert np.array_equal(cells, array.astype(np.float32)), name
     grains = read(vtk.vtkXMLPolyDataReader(), f"{folder}/grains/grains_{step}.vtp")
-    assert grains.GetNumberOfPoints() == grains.GetNumberOfVerts() == 1
+    assert grains.GetNumberOfPoints() == grains.GetNumberOfVerts() == 2
     assert np.allclose(grains.GetPoint(0), (3e-4, 2e-4, 2e-4))
     assert np.isclose(vtk_to_numpy(grains.GetPointData().GetArray("diameter (m)"))[0], 2.5e-4)
     force = vtk_to_numpy(grains.GetPointData().GetArray("force (N)"))
-    assert force.shape == (1, 3) and (step == "000000000000" or force[0, 0] > 0)
+    assert force.shape == (2, 3) and (step == "000000000000" or force[0, 0] > 0)
+    # The free grain has drifted across the periodic face at x = 6e-4 and is shown inside the box.
+    x = grains.GetPoint(1)[0]
+    assert 0 <= x < 6e-4 and (step != "000000000040" or x < 1e-4), x
+    assert vtk_to_numpy(grains.GetPointData().GetArray("contacts")).shape == (2,)
+    assert vtk_to_numpy(grains.GetPointData().GetArray("contact force (N)")).shape == (2, 3)
+pvd = open(f"{folder}/grains.pvd").read()
+assert pvd.count("<DataSet") == 3 and "grains/grains_000000000040.vtp" in pvd
 print("read by VTK", vtk.vtkVersion().GetVTKVersion(), "and NumPy", np.__version__)
 "#;
 

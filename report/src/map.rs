@@ -1,12 +1,17 @@
 //! Maps: one value per cell of a plane, as colours. Cells without a value (inside grains) are grey.
 
+use std::f64::consts::TAU;
+
 use plotters::style::RGBColor;
 use plotters::style::text_anchor::HPos;
 
 use crate::canvas::{Canvas, Font, Pen};
+use crate::clip;
 use crate::error::PlotError;
 use crate::figure::Axis;
-use crate::layout::{GAP, LABEL, LEADING, MARGIN, NOTE, Rect, TICK, TICK_MARK, TITLE, X_TICKS};
+use crate::layout::{
+    GAP, LABEL, LEADING, MARGIN, NOTE, Point, Rect, TICK, TICK_MARK, TITLE, X_TICKS,
+};
 use crate::palette::{FAINT_INK, INK, map_colour};
 use crate::span::{Span, bad};
 use crate::ticks::Ticks;
@@ -26,6 +31,9 @@ pub struct Map {
     pub columns: usize,
     /// Values, x first, from the lower left; grey where `None`.
     pub values: Vec<Option<f64>>,
+    /// Outlines over the colours: x and y of the centre and the radius of each circle, in the units
+    /// of the axes.
+    pub circles: Vec<[f64; 3]>,
     /// A small line of text under the map.
     pub note: String,
 }
@@ -72,6 +80,7 @@ pub fn render_map(map: &Map) -> Result<String, PlotError> {
     );
     Canvas::svg(size, |canvas| {
         cells(canvas, map, rows, &rect, &value)?;
+        circles(canvas, map, &rect, (&x, &y))?;
         axes(canvas, map, &rect, (&x, &y))?;
         colours(canvas, &map.value.label, &rect, &value)?;
         canvas.text(
@@ -122,6 +131,35 @@ fn cells(
             let top = (bottom - dy - OVERLAP).max(rect.top);
             let corners = [(left, bottom), (right, bottom), (right, top), (left, top)];
             canvas.polygon(&corners, colour(&piece[0]))?;
+        }
+    }
+    Ok(())
+}
+
+/// Corners of a circle.
+const CORNERS: u8 = 72;
+
+/// The outlines, cut at the frame.
+fn circles(
+    canvas: &Canvas,
+    map: &Map,
+    rect: &Rect,
+    (x, y): (&Span, &Span),
+) -> Result<(), PlotError> {
+    for &[right, up, radius] in &map.circles {
+        let corner = |number: u8| {
+            let (sine, cosine) = (TAU * f64::from(number) / f64::from(CORNERS)).sin_cos();
+            (
+                rect.left + x.fraction(right + radius * cosine) * rect.width(),
+                rect.bottom - y.fraction(up + radius * sine) * rect.height(),
+            )
+        };
+        let points: Vec<Point> = (0..=CORNERS).map(corner).collect();
+        if !points.iter().all(|point| point.0.is_finite() && point.1.is_finite()) {
+            return Err(bad(&map.x, format!("the circle at ({right}, {up}) is not finite")));
+        }
+        for piece in clip::path(&points, rect) {
+            canvas.path(&piece, Pen::solid(INK, 1.0))?;
         }
     }
     Ok(())

@@ -311,6 +311,7 @@ fn a_map_is_drawn_with_its_scale_and_grey_where_there_is_no_value() {
         y: Axis::linear("y (mm)").range(0.0, 2.0),
         value: Axis::linear("speed (mm/s)").range(0.0, 4.0),
         columns: 3,
+        circles: vec![[0.0, 1.0, 0.7]],
         values: vec![Some(0.0), Some(1.0), Some(2.0), None, Some(4.0), Some(4.0)],
         note: "after 3 s".into(),
     };

@@ -74,7 +74,7 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
 fn figure(value: f64) -> String {
     if value == value.round() && value.abs() < 1e9 {
         format!("{value}")
-    } else if (1e-3..1e5).contains(&value.abs()) {
+    } else if (0.1..1e5).contains(&value.abs()) {
         format!("{value:.4}")
     } else {
         format!("{value:.4e}")

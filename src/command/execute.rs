@@ -6,14 +6,14 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use psmrt_report::write_svg;
+use psmrt_report::{Figure, write_svg};
 use serde_json::{Value, json};
 
 use super::progress::Progress as ProgressBar;
 use super::{CommandError, comparison, info, profile, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
-use crate::output::{atomic, csv, plot};
+use crate::output::{atomic, csv, grain_plots, plot};
 use crate::run::{End, run as run_scene};
 use crate::scene::{Scene, What};
 
@@ -81,18 +81,23 @@ pub(super) fn execute(
 
 /// Draws the records that a curve can show.
 fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
-    let curves =
-        scene.records.iter().filter(|r| matches!(r.what, What::Box | What::Profile { .. }));
-    for record in curves {
+    for record in &scene.records {
         let table = folder.join(format!("{}.csv", record.name));
         let title = format!("{} ({})", scene.title, record.name);
-        write(&table.with_extension("svg"), |path| {
-            let rows = csv::read(&table).map_err(|error| error.to_string())?;
-            let figure = match record.what {
-                What::Profile { axis, .. } => plot::line_record(&title, axis, &rows),
-                _ => plot::box_record(&title, &rows),
-            };
-            write_svg(&figure, path).map_err(|error| error.to_string())
+        let rows = || csv::read(&table);
+        let figure = || -> std::io::Result<Option<Figure>> {
+            Ok(match record.what {
+                What::Box => Some(plot::box_record(&title, &rows()?)),
+                What::Profile { axis, .. } => Some(plot::line_record(&title, axis, &rows()?)),
+                What::Loads => grain_plots::loads(&title, &table)?,
+                What::GrainMeans => grain_plots::means(&title, &rows()?),
+                What::Fields { .. } | What::Slice { .. } | What::Grains => None,
+            })
+        };
+        write(&table.with_extension("svg"), |path| match figure() {
+            Ok(None) => Ok(()),
+            Ok(Some(figure)) => write_svg(&figure, path).map_err(|error| error.to_string()),
+            Err(error) => Err(error.to_string()),
         })?;
     }
     Ok(())

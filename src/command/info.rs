@@ -6,11 +6,12 @@ use super::execute::say;
 use crate::kernel::{AdapterFacts, adapters};
 use crate::machine;
 
-/// The program: version, commit, compiler's target.
+/// The program: version, commit and whether the sources had been changed since, compiler's target.
 pub(super) fn program() -> Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
         "commit": option_env!("PSMRT_COMMIT"),
+        "modified": option_env!("PSMRT_MODIFIED").map(|text| text == "true"),
         "target": format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         "debug_assertions": cfg!(debug_assertions),
     })
@@ -51,7 +52,11 @@ pub fn info(json: bool) {
         |bytes| format!("{:.1} GiB", bytes as f64 / (1_u64 << 30) as f64),
     );
     say(&format!("psmrt      {}", text(&program["version"])));
-    say(&format!("commit     {}", text(&program["commit"])));
+    let modified = match program["modified"].as_bool() {
+        Some(true) => " and changes that are not committed",
+        _ => "",
+    };
+    say(&format!("commit     {}{modified}", text(&program["commit"])));
     say(&format!("target     {}", text(&program["target"])));
     say(&format!("processor  {}", text(&machine["processor"])));
     say(&format!("threads    {}", text(&machine["threads"])));

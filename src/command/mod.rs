@@ -4,6 +4,7 @@ pub mod check;
 mod comparison;
 mod execute;
 pub mod info;
+pub mod pack;
 mod profile;
 mod progress;
 pub mod resume;
@@ -38,6 +39,9 @@ pub enum CommandError {
     /// A run cannot be resumed.
     #[error("{0}")]
     Resume(String),
+    /// The options of a command make no sense together, or ask for what cannot be made.
+    #[error("{0}")]
+    Usage(String),
     /// A checkpoint cannot be used, and perhaps an older one can.
     #[error("{error}{older}")]
     Checkpoint {
@@ -79,6 +83,7 @@ impl CommandError {
             | CommandError::Device(_)
             | CommandError::Folder(_)
             | CommandError::Resume(_)
+            | CommandError::Usage(_)
             | CommandError::Checkpoint { .. } => 2,
             CommandError::Run(_) | CommandError::Write { .. } => 1,
             CommandError::Interrupted { .. } => 130,

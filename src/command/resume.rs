@@ -24,7 +24,11 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
     let folder = &request.folder;
     let file = folder.join("scene.toml");
     if !file.is_file() {
-        let problem = format!("{} is no folder of a run: it has no scene.toml", folder.display());
+        let problem = format!(
+            "{} is no folder of a run: it has no scene.toml (a run that was killed before it had written \
+             its scene has computed nothing: remove the folder and use `psmrt run` again)",
+            folder.display()
+        );
         return Err(CommandError::Resume(problem));
     }
     let scene = Scene::load(&file, &[])?;

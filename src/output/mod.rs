@@ -3,6 +3,9 @@
 pub mod atomic;
 pub mod csv;
 pub mod folder;
+pub mod grain_list;
+pub mod grain_means;
+pub mod grain_plots;
 pub mod npy;
 pub mod plot;
 pub mod records;

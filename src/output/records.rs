@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use psmrt_reference::solids::Shape;
 
 use super::csv::{Column, Table, Value};
-use super::snapshots;
+use super::{grain_means, snapshots};
 use crate::engine::{CellState, Engine};
 use crate::scene::{Record, Scene, What};
 
@@ -50,8 +50,13 @@ const LOAD_COLUMNS: [Column; 17] = [
 ];
 
 /// The records that are tables: kind and columns, after time and step.
-pub fn tables() -> [(&'static str, &'static [Column]); 3] {
-    [("box", &BOX_COLUMNS), ("profile", &PROFILE_COLUMNS), ("loads", &LOAD_COLUMNS)]
+pub fn tables() -> [(&'static str, &'static [Column]); 4] {
+    [
+        ("box", &BOX_COLUMNS),
+        ("profile", &PROFILE_COLUMNS),
+        ("loads", &LOAD_COLUMNS),
+        ("grain_means", &grain_means::COLUMNS),
+    ]
 }
 
 /// Takes one record.
@@ -94,6 +99,7 @@ impl Recorder {
         };
         match &self.record.what {
             What::Box => add(&[], &box_row(scene, engine))?,
+            What::GrainMeans => add(&[], &grain_means::row(scene, engine))?,
             What::Profile { axis, through } => {
                 for row in profile_rows(scene, engine, *axis, *through) {
                     add(&[], &row)?;
@@ -126,6 +132,7 @@ fn columns(record: &Record) -> Option<Vec<Column>> {
         What::Box => &BOX_COLUMNS,
         What::Profile { .. } => &PROFILE_COLUMNS,
         What::Loads => &LOAD_COLUMNS,
+        What::GrainMeans => &grain_means::COLUMNS,
         What::Fields { .. } | What::Slice { .. } | What::Grains => return None,
     };
     let first = [Column::new("time", "s"), Column::new("step", "")];

@@ -4,8 +4,11 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
+use psmrt_reference::domain::Domain;
+use psmrt_reference::solids::Load;
+
 use super::vtk::Array;
-use super::{atomic, npy, vtk};
+use super::{atomic, grain_means, npy, vtk};
 use crate::engine::{CellState, Engine};
 use crate::scene::format_run::FieldFormat;
 use crate::scene::{Record, Rhythm, Scene, What};
@@ -37,7 +40,7 @@ pub fn take(record: &Record, scene: &Scene, engine: &dyn Engine, folder: &Path) 
             image(scene, engine, &folder_of_files.join(file(name, step, "vti")))?;
             "vti"
         }
-        What::Box | What::Profile { .. } | What::Loads => return Ok(()),
+        What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => return Ok(()),
     };
     let times: Vec<u64> = match record.rhythm {
         Rhythm::Every(interval) => (0..=step / interval).map(|i| i * interval).collect(),
@@ -107,13 +110,24 @@ fn velocity(scene: &Scene) -> impl Fn(&CellState) -> [f64; 3] + use<> {
     move |cell| (cell.velocity * si_unit).into()
 }
 
+/// A place (m) moved into the box along periodic axes.
+fn wrapped(domain: &Domain, si_place: &[f64], si_dx: f64) -> [f64; 3] {
+    std::array::from_fn(|axis| {
+        let si_length = domain.cells()[axis] as f64 * si_dx;
+        let periods = (si_place[axis] / si_length).floor();
+        si_place[axis] - if domain.is_periodic(axis) { periods * si_length } else { 0.0 }
+    })
+}
+
 fn grains(scene: &Scene, engine: &dyn Engine, path: &Path) -> io::Result<()> {
     let rows = super::records::load_rows(scene, engine);
+    let domain = &scene.setup.domain;
+    let places = rows.iter().flat_map(|row| wrapped(domain, &row[1..4], scene.units.si_dx));
     let columns = |range: std::ops::Range<usize>| {
         rows.iter().flat_map(move |row| row[range.clone()].iter().copied())
     };
-    let arrays = vec![
-        Array::new("Points", 3, columns(1..4)),
+    let mut arrays = vec![
+        Array::new("Points", 3, places),
         Array::new("grain", 1, columns(0..1)),
         Array::new("diameter (m)", 1, columns(4..5)),
         Array::new("velocity (m/s)", 3, columns(5..8)),
@@ -121,5 +135,13 @@ fn grains(scene: &Scene, engine: &dyn Engine, path: &Path) -> io::Result<()> {
         Array::new("force (N)", 3, columns(11..14)),
         Array::new("torque (N m)", 3, columns(14..17)),
     ];
+    if let Some(system) = engine.free_grains() {
+        let counts = grain_means::contacts_of_each(&system.state());
+        let si_force = scene.units.si_force();
+        let force = move |load: &Load| <[f64; 3]>::from(load.force * si_force);
+        arrays.push(Array::new("contacts", 1, counts.into_iter().map(f64::from)));
+        let forces = system.contact_loads().iter().flat_map(force);
+        arrays.push(Array::new("contact force (N)", 3, forces));
+    }
     atomic::write(path, |out| vtk::points(out, rows.len(), arrays))
 }

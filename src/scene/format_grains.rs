@@ -9,12 +9,12 @@ use super::format::Triple;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrainsSection {
-    /// `sphere` (one grain), `csv` (a list in a file) or `array` (a regular array that fills the
-    /// box).
+    /// `sphere` (one grain), `csv` (a list in a file), `array` (a regular array that fills the box),
+    /// `random` (a random suspension) or `bed` (grains that have settled onto the face `z_low`).
     pub kind: GrainsKind,
     /// With `sphere`: its centre, m.
     pub centre: Option<Triple>,
-    /// With `sphere` and `array`: diameter, m.
+    /// With all kinds but `csv`: diameter, m.
     pub diameter: Option<f64>,
     /// With `csv`: the file, relative to the scene. Its first line is
     /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own; each
@@ -24,8 +24,22 @@ pub struct GrainsSection {
     pub lattice: Option<LatticeName>,
     /// With `array`: unit cells along x, y, z; 1 each where absent. They must come out as cubes.
     pub counts: Option<[i64; 3]>,
-    /// With `array`, instead of `diameter`: volume of the grains over that of the box, in (0, 1).
+    /// With `random` and `bed`, instead of `diameter`: smallest and largest diameter, m; by number
+    /// all between are as frequent.
+    pub diameter_range: Option<[f64; 2]>,
+    /// With `array`, instead of `diameter`, and with `random`, instead of `count`: volume of the
+    /// grains over that of the box, in (0, 1). A suspension above 0.25 needs a box that is periodic
+    /// along all axes.
     pub solid_fraction: Option<f64>,
+    /// With `random` and `bed`: number of grains.
+    pub count: Option<i64>,
+    /// With `random` and `bed`: seed of places and sizes, a whole number; 1 where absent. The same
+    /// seed gives the same grains.
+    pub seed: Option<i64>,
+    /// With `random`: least distance between surfaces, m; 0 where absent.
+    pub gap: Option<f64>,
+    /// With `bed`: friction while it settles; 0.5 where absent, 0 packs dense.
+    pub packing_friction: Option<f64>,
     /// `fixed` (the default), `prescribed` (moves as `velocity` and `spin` say) or `free` (moves as
     /// fluid, neighbours and gravity push it).
     #[serde(default)]
@@ -48,6 +62,10 @@ pub enum GrainsKind {
     Csv,
     /// A regular array.
     Array,
+    /// A random suspension.
+    Random,
+    /// A settled bed.
+    Bed,
 }
 
 /// A regular array.

@@ -12,9 +12,9 @@ use super::format::Triple;
 pub struct RecordSection {
     /// Name of the record and of its file: letters, digits, `-` and `_`.
     pub name: String,
-    /// `box` (means over the box), `profile` (a line of cells), `loads` (force and torque on each
-    /// grain), `slice` (a picture of a plane), `fields` (all cells) or `grains` (all grains, for
-    /// ParaView).
+    /// `box` (means over the box), `profile` (a line of cells), `loads` (place, motion, force and
+    /// torque of each grain), `grain_means` (means over the free grains), `slice` (a picture of a
+    /// plane), `fields` (all cells) or `grains` (all grains, for ParaView).
     pub kind: RecordKind,
     /// Time between rows, s.
     pub every: Option<f64>,
@@ -41,14 +41,16 @@ pub enum RecordKind {
     Box,
     /// Pressure and velocity along a line of cells.
     Profile,
-    /// Force and torque on each grain during the last step.
+    /// Place and motion of each grain, and force and torque of the fluid on it in the last step.
     Loads,
-    /// A picture (SVG) of a plane of cells; grains are grey.
+    /// A picture (SVG) of a plane of cells; grains are grey, with their outlines.
     Slice,
     /// Pressure, velocity and solid fraction of all cells.
     Fields,
     /// Place, motion and load of all grains.
     Grains,
+    /// Place, motion, energy and contacts of the free grains on the mean.
+    GrainMeans,
 }
 
 /// What a picture shows.
@@ -107,7 +109,7 @@ pub struct StopSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SteadySection {
-    /// Name of a record of kind `box`.
+    /// Name of a record of kind `box` or `grain_means`.
     pub record: String,
     /// One of its columns, for example `superficial_velocity_x`.
     pub column: String,

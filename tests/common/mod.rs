@@ -6,7 +6,9 @@ pub mod arrays;
 pub mod collisions;
 pub mod cuts;
 pub mod random;
+pub mod settling;
 pub mod sphere_quadrature;
+pub mod suspension;
 pub mod trials;
 
 use psmrt::kernel::Kernel;

@@ -12,7 +12,7 @@
 //! | `m dv/dt = F` | velocity Verlet, the length of a sub-step | [`motion`] |
 //! | | the box, what a set of grains is set up with, and the checks | [`setup`] |
 //! | | order of operations in a sub-step, checkpoints | [`system`] |
-//! | | beds to start from | [`packing`] |
+//! | | beds and suspensions to start from | [`packing`] |
 //!
 //! Units: any consistent ones (SI, or the lattice units of the fluid): nothing here has a scale of
 //! its own. Units are given as `length`, `time`, `mass` and what is made of them. Angles are radians.

@@ -1,4 +1,4 @@
-//! Grains: from one sphere, a CSV file or a regular array to a list of solids.
+//! Grains: all sections together as one list, in lattice units.
 
 use std::path::Path;
 
@@ -7,8 +7,8 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
 use super::numbers::{absent, finite, needed, positive};
-use super::{MAX_SPEED, Trouble, arrays, grain_list, neighbours};
-use crate::scene::format_grains::{GrainsKind, GrainsSection, Motion};
+use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
+use crate::scene::format_grains::{GrainsSection, Motion};
 use crate::scene::units::Units;
 
 /// A grain with fewer cells across is not seen by the fluid as a sphere at all.
@@ -24,6 +24,20 @@ pub(super) struct Ball {
     pub si_diameter: f64,
     /// Where its file gives one.
     pub si_density: Option<f64>,
+}
+
+/// Where grains are put down: the box, and how a key of their section is called.
+pub(super) struct Place<'a> {
+    pub at: &'a dyn Fn(&str) -> String,
+    pub domain: &'a Domain,
+    pub units: &'a Units,
+}
+
+impl Place<'_> {
+    /// Lengths of the box, m.
+    pub fn si_lengths(&self) -> [f64; 3] {
+        self.domain.cells().map(|n| n as f64 * self.units.si_dx)
+    }
 }
 
 /// The contents of a file that a scene names: a run keeps a copy.
@@ -73,16 +87,17 @@ impl GrainList {
         let mut list = GrainList::default();
         for (number, section) in sections.iter().enumerate() {
             let at = |key: &str| format!("grains[{number}].{key}");
-            foreign_keys(section, &at)?;
+            grain_kinds::foreign_keys(section, &at)?;
             let (velocity, spin) = motion(section, &at, units)?;
-            let size_key = size_key(section, &at);
-            let attachments = &mut list.attachments;
-            for ball in balls(section, number, &at, folder, domain, units, attachments)? {
+            let place = Place { at: &at, domain, units };
+            let (balls, bytes) = grain_kinds::balls(section, folder, &place)?;
+            list.attachments.extend(bytes.map(|bytes| Attachment { section: number, bytes }));
+            for ball in balls {
                 let density = density(section, &at, &ball, units)?;
                 let centre = Units::to_lattice(ball.si_centre, units.si_dx);
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
-                let (key, motion) = (place_key(section, &at), section.motion);
-                check_size(&size_key, radius, units)?;
+                let (key, motion) = (grain_kinds::place_key(section, &at), section.motion);
+                check_size(&grain_kinds::size_key(section, &at), radius, units)?;
                 check_speed(&at("spin"), &velocity, &spin, radius)?;
                 neighbours::inside(&key, domain, &centre, radius, units)?;
                 list.grains.push(Listed { key, motion, centre, radius, density, velocity, spin });
@@ -104,74 +119,6 @@ impl GrainList {
             Solid { shape: Shape::Sphere { radius }, centre, velocity, spin }
         };
         self.grains.iter().map(solid).collect()
-    }
-}
-
-/// The key to blame for where a grain is.
-fn place_key(section: &GrainsSection, at: &impl Fn(&str) -> String) -> String {
-    match section.kind {
-        GrainsKind::Sphere => at("centre"),
-        GrainsKind::Csv => at("file"),
-        GrainsKind::Array if section.diameter.is_some() => at("diameter"),
-        GrainsKind::Array => at("solid_fraction"),
-    }
-}
-
-/// The key to blame for how large a grain is.
-fn size_key(section: &GrainsSection, at: &impl Fn(&str) -> String) -> String {
-    if section.kind == GrainsKind::Sphere { at("diameter") } else { place_key(section, at) }
-}
-
-/// Errors at a key that belongs to another kind.
-fn foreign_keys(section: &GrainsSection, at: &impl Fn(&str) -> String) -> Result<(), Trouble> {
-    let kind = section.kind;
-    if kind != GrainsKind::Sphere {
-        absent(&at("centre"), section.centre.as_ref(), "grains of kind `sphere`")?;
-    }
-    if kind == GrainsKind::Csv {
-        let belongs = "grains of kind `sphere` and `array`; the file has its own";
-        absent(&at("diameter"), section.diameter.as_ref(), belongs)?;
-    } else {
-        absent(&at("file"), section.file.as_ref(), "grains of kind `csv`")?;
-    }
-    if kind != GrainsKind::Array {
-        let belongs = "grains of kind `array`";
-        absent(&at("lattice"), section.lattice.as_ref(), belongs)?;
-        absent(&at("counts"), section.counts.as_ref(), belongs)?;
-        absent(&at("solid_fraction"), section.solid_fraction.as_ref(), belongs)?;
-    }
-    Ok(())
-}
-
-fn balls(
-    section: &GrainsSection,
-    number: usize,
-    at: &impl Fn(&str) -> String,
-    folder: &Path,
-    domain: &Domain,
-    units: &Units,
-    attachments: &mut Vec<Attachment>,
-) -> Result<Vec<Ball>, Trouble> {
-    match section.kind {
-        GrainsKind::Sphere => {
-            let remedy = "add `centre = [x, y, z]` in m";
-            let si_centre = needed(&at("centre"), section.centre, "a sphere needs it", remedy)?;
-            finite(&at("centre"), &si_centre, "m")?;
-            let remedy = "add `diameter`, in m";
-            let si_diameter =
-                needed(&at("diameter"), section.diameter, "a sphere needs it", remedy)?;
-            positive(&at("diameter"), si_diameter, "m")?;
-            Ok(vec![Ball { si_centre, si_diameter, si_density: None }])
-        }
-        GrainsKind::Csv => {
-            let remedy = "add `file = \"grains.csv\"`, relative to the scene file";
-            let because = "grains of kind `csv` need it";
-            let file = needed(&at("file"), section.file.as_deref(), because, remedy)?;
-            let (bytes, balls) = grain_list::read(&at("file"), &folder.join(file))?;
-            attachments.push(Attachment { section: number, bytes });
-            Ok(balls)
-        }
-        GrainsKind::Array => arrays::balls(section, at, domain, units),
     }
 }
 
@@ -234,7 +181,8 @@ fn density(
     Err(Trouble::new(key, problem, "densities are in kg/m3: water has 1000, quartz 2650"))
 }
 
-fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Trouble> {
+/// Errors if a grain is too coarse.
+pub(super) fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Trouble> {
     if 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
         return Ok(());
     }

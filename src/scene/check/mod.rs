@@ -8,7 +8,9 @@ pub mod contact;
 pub mod domain;
 mod faces;
 pub mod free;
-mod grain_list;
+mod generated;
+mod grain_kinds;
+pub mod grain_list;
 pub mod grains;
 mod mirrors;
 mod neighbours;
@@ -62,7 +64,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     }
     setup.solid_phase = solid::solid_phase(file.solid.as_ref(), list.solids())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
-    let records = records::records(&file.records, &setup, &units)?;
+    let records = records::records(&file.records, &setup, free.is_some(), &units)?;
     let stop = stop::stop(&file.stop, &records, &units)?;
     let exact = match file.compare.as_ref().map(|section| section.exact) {
         Some(ExactName::PlanePoiseuille) => Some(

@@ -52,6 +52,8 @@ pub enum What {
     },
     /// All grains, a file each time.
     Grains,
+    /// Means over the free grains.
+    GrainMeans,
 }
 
 /// How often a record is taken.
@@ -90,6 +92,7 @@ impl AxisName {
 pub(super) fn records(
     sections: &[RecordSection],
     setup: &Setup,
+    free: bool,
     units: &Units,
 ) -> Result<Vec<Record>, Trouble> {
     let mut names = HashSet::new();
@@ -110,7 +113,7 @@ pub(super) fn records(
                 return Err(Trouble::new(at("every_steps"), problem, "give one of them"));
             }
         };
-        let what = what(section, &at, setup, units)?;
+        let what = what(section, &at, setup, free, units)?;
         records.push(Record { name: section.name.clone(), what, rhythm });
     }
     Ok(records)
@@ -120,6 +123,7 @@ fn what(
     section: &RecordSection,
     at: &impl Fn(&str) -> String,
     setup: &Setup,
+    free: bool,
     units: &Units,
 ) -> Result<What, Trouble> {
     if section.kind != RecordKind::Fields {
@@ -129,6 +133,11 @@ fn what(
     {
         let problem = "the scene has no grains to record";
         return Err(Trouble::new(at("kind"), problem, "add [[grains]], or remove this record"));
+    }
+    if section.kind == RecordKind::GrainMeans && !free {
+        let problem = "the scene has no free grains to record";
+        let remedy = "add `motion = \"free\"` to grains, or remove this record";
+        return Err(Trouble::new(at("kind"), problem, remedy));
     }
     let needs_axis = matches!(section.kind, RecordKind::Profile | RecordKind::Slice);
     if !needs_axis {
@@ -158,6 +167,7 @@ fn what(
         }
         RecordKind::Loads => What::Loads,
         RecordKind::Grains => What::Grains,
+        RecordKind::GrainMeans => What::GrainMeans,
         RecordKind::Fields => {
             let formats = section.formats.clone().unwrap_or_else(|| vec![FieldFormat::Vti]);
             if formats.is_empty() {

@@ -3,6 +3,8 @@
 use super::Trouble;
 use super::numbers::{count, steps};
 use super::records::{Record, Rhythm, What};
+use crate::output::csv::Column;
+use crate::output::grain_means;
 use crate::output::records::BOX_COLUMNS;
 use crate::scene::format_run::{SteadySection, StopSection};
 use crate::scene::units::Units;
@@ -19,9 +21,9 @@ pub struct Stop {
 /// A steady-state criterion: three rows in a row change a column by less than `tolerance`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
-    /// Number of the record, of kind [`What::Box`].
+    /// Number of the record, of kind [`What::Box`] or [`What::GrainMeans`].
     pub record: usize,
-    /// Number of the column in [`BOX_COLUMNS`].
+    /// Number of the column in [`BOX_COLUMNS`] or [`grain_means::COLUMNS`].
     pub column: usize,
     /// Largest relative change.
     pub tolerance: f64,
@@ -52,20 +54,22 @@ pub(super) fn stop(
 fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble> {
     let SteadySection { record: name, column, tolerance } = section;
     let wanted =
-        |record: &Record| record.what == What::Box && matches!(record.rhythm, Rhythm::Every(_));
+        |record: &Record| columns(record).is_some() && matches!(record.rhythm, Rhythm::Every(_));
     let number = records.iter().position(|record| record.name == *name && wanted(record));
     let Some(record) = number else {
         let names: Vec<_> = records.iter().filter(|r| wanted(r)).map(|r| &r.name).collect();
-        let problem = "there is no record of that name of kind `box` with `every` or `every_steps`";
+        let problem = "there is no record of that name of kind `box` or `grain_means` \
+                       with `every` or `every_steps`";
         let remedy = match names.is_empty() {
             true => "add such a record".to_owned(),
             false => format!("such records are: {names:?}"),
         };
         return Err(Trouble::new("stop.steady.record", problem, remedy));
     };
-    let Some(number) = BOX_COLUMNS.iter().position(|known| known.name == column) else {
-        let known: Vec<_> = BOX_COLUMNS.iter().map(|column| column.name).collect();
-        let problem = "a record of kind `box` has no such column";
+    let columns = columns(&records[record]).unwrap_or_default();
+    let Some(number) = columns.iter().position(|known| known.name == column) else {
+        let known: Vec<_> = columns.iter().map(|column| column.name).collect();
+        let problem = "that record has no such column";
         return Err(Trouble::new(
             "stop.steady.column",
             problem,
@@ -77,4 +81,13 @@ fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble
         return Err(Trouble::new("stop.steady.tolerance", problem, "1e-6 is usual"));
     }
     Ok(Steady { record, column: number, tolerance: *tolerance })
+}
+
+/// The columns of a record that can become steady.
+fn columns(record: &Record) -> Option<&'static [Column]> {
+    match record.what {
+        What::Box => Some(&BOX_COLUMNS),
+        What::GrainMeans => Some(&grain_means::COLUMNS),
+        _ => None,
+    }
 }

@@ -1,10 +1,12 @@
-//! Packings to start from: a settled bed ([`bed`]) and a periodic random packing at a wanted porosity
-//! ([`periodic`]), each from a seed, and what can be said of them.
+//! Packings to start from: a settled bed ([`bed`]), a periodic random packing at a wanted porosity
+//! ([`periodic`]) and a dilute random suspension ([`suspension`]), each from a seed, and what can be
+//! said of them.
 //!
 //! The same seed gives the same packing, to the last bit, on any number of threads.
 
 pub mod bed;
 pub mod periodic;
+pub mod suspension;
 
 use crate::grains::grain::{Grain, sphere_volume};
 use crate::grains::law::LawError;
@@ -78,6 +80,17 @@ pub enum PackingError {
         allowed: f64,
         /// Sub-steps made.
         substeps: u32,
+    },
+    /// No place was found.
+    #[error(
+        "{placed} of {wanted} grains found a place, the next one did not: random places run out near a \
+         solid fraction of 0.3; take fewer or smaller grains, a smaller gap or a larger box"
+    )]
+    Crowded {
+        /// Grains that found a place.
+        placed: usize,
+        /// Grains that were wanted.
+        wanted: usize,
     },
     /// The bed still moves.
     #[error(

@@ -1,0 +1,204 @@
+//! `psmrt pack`: makes a packing of grains and writes it as a list that scenes read.
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use psmrt_reference::grains::packing::bed::{BedSides, SettledBed};
+use psmrt_reference::grains::packing::periodic::PeriodicPacking;
+use psmrt_reference::grains::packing::{Packing, PackingError, PackingReport, radius_for};
+use serde_json::json;
+
+use super::execute::say;
+use super::{CommandError, write};
+use crate::output::{atomic, grain_list};
+use crate::packing::{Amount, Sizes};
+
+/// What `psmrt pack` is asked for; lengths in m.
+#[derive(Args, Clone, Debug)]
+pub struct PackRequest {
+    /// Lets the grains settle into a bed on z = 0 instead of packing a periodic box
+    #[arg(long)]
+    pub bed: bool,
+    /// Vertical walls at the sides of a bed instead of periodic ones
+    #[arg(long, requires = "bed")]
+    pub walls: bool,
+    /// Lengths of the box, m; for a bed x and y
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', required = true)]
+    pub size: Vec<f64>,
+    /// Diameter of the grains, m
+    #[arg(long, value_name = "M")]
+    pub diameter: Option<f64>,
+    /// Largest diameter, m; all between it and --diameter are as frequent
+    #[arg(long, value_name = "M", requires = "diameter")]
+    pub largest_diameter: Option<f64>,
+    /// Number of grains
+    #[arg(long, value_name = "N")]
+    pub count: Option<usize>,
+    /// Void volume over volume, of a periodic packing
+    #[arg(long, value_name = "N")]
+    pub porosity: Option<f64>,
+    /// Friction while a bed settles; 0 packs dense
+    #[arg(long, value_name = "MU", default_value_t = 0.5)]
+    pub friction: f64,
+    /// Density of the grains for the list, kg/m3
+    #[arg(long, value_name = "KG/M3")]
+    pub density: Option<f64>,
+    /// Seed; the same seed gives the same list
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// The list (CSV)
+    #[arg(long, value_name = "FILE", default_value = "grains.csv")]
+    pub out: PathBuf,
+    /// Replaces a list that is there already
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// More grains are refused: they would take days.
+const MOST_GRAINS: usize = 1_000_000;
+
+/// Makes the packing, writes it and says what it is: as text, or as one JSON object.
+pub fn pack(request: &PackRequest, json: bool) -> Result<(), CommandError> {
+    let radii = radii(request)?;
+    if request.out.exists() && !request.force {
+        let out = request.out.display();
+        return Err(wrong(format!("{out} is there already: name another file, or add --force")));
+    }
+    let start = Instant::now();
+    let bar = spinner(request, radii.len(), json);
+    let made = make(request, radii);
+    bar.finish_and_clear();
+    let packing = made.map_err(|error| wrong(error.to_string()))?;
+    let PackingReport { porosity, coordination, largest_overlap } = packing.report;
+    let comments = [
+        format!("{} grains by psmrt {} pack", packing.grains.len(), env!("CARGO_PKG_VERSION")),
+        format!(
+            "{}, size {:?} m, seed {}{}",
+            if request.bed { "settled bed" } else { "periodic packing" },
+            request.size,
+            request.seed,
+            if request.bed { format!(", friction {}", request.friction) } else { String::new() }
+        ),
+        format!(
+            "porosity {porosity:.6}{}, mean coordination number {coordination:.4}, largest overlap \
+             {largest_overlap:.3e} diameters",
+            if request.bed { " (middle half)" } else { "" }
+        ),
+    ];
+    let text = grain_list::to_csv(&packing.grains, request.density, &comments);
+    write(&request.out, |path| atomic::write(path, |out| out.write_all(text.as_bytes())))?;
+    let seconds = start.elapsed().as_secs_f64();
+    let top = packing.grains.iter().map(|grain| grain.position.z + grain.radius);
+    let top = top.fold(0.0, f64::max);
+    if json {
+        let found = json!({
+            "file": request.out, "grains": packing.grains.len(), "porosity": porosity,
+            "coordination": coordination, "largest_overlap": largest_overlap,
+            "height_m": top, "seconds": seconds,
+        });
+        say(&found.to_string());
+        return Ok(());
+    }
+    let middle = if request.bed { " (middle half of the bed)" } else { "" };
+    say(&format!("grains               {}", packing.grains.len()));
+    say(&format!("porosity             {porosity:.4}{middle}"));
+    say(&format!("coordination number  {coordination:.3} (mean)"));
+    say(&format!("largest overlap      {largest_overlap:.2e} diameters"));
+    if request.bed {
+        say(&format!("height               {top:.4e} m"));
+    }
+    say(&format!("time                 {seconds:.1} s"));
+    say(&format!("list in {}", request.out.display()));
+    Ok(())
+}
+
+fn make(request: &PackRequest, radii: Vec<f64>) -> Result<Packing, PackingError> {
+    if !request.bed {
+        let lengths = std::array::from_fn(|axis| request.size[axis]);
+        return PeriodicPacking::new(lengths, radii, request.seed).make();
+    }
+    let lengths = std::array::from_fn(|axis| request.size[axis]);
+    let sides = if request.walls { BedSides::Walls } else { BedSides::Periodic };
+    let (friction, seed) = (request.friction, request.seed);
+    SettledBed { lengths, sides, radii, friction, seed }.make()
+}
+
+/// Radii of the grains; errors at options that make no sense.
+fn radii(request: &PackRequest) -> Result<Vec<f64>, CommandError> {
+    let positive = |name: &str, value: f64| match value > 0.0 && value.is_finite() {
+        true => Ok(()),
+        false => Err(wrong(format!("--{name} {value}: it must be positive and finite"))),
+    };
+    request.size.iter().try_for_each(|&length| positive("size", length))?;
+    request.diameter.iter().try_for_each(|&diameter| positive("diameter", diameter))?;
+    request.density.iter().try_for_each(|&density| positive("density", density))?;
+    if !(request.friction >= 0.0 && request.friction.is_finite()) {
+        return Err(wrong(format!("--friction {}: it must be 0 or more", request.friction)));
+    }
+    let axes = if request.bed { 2..=3 } else { 3..=3 };
+    if !axes.contains(&request.size.len()) {
+        return Err(wrong("--size: give the lengths x,y,z in m (for a bed x,y)".to_owned()));
+    }
+    if request.count.is_some_and(|count| count == 0 || count > MOST_GRAINS) {
+        return Err(wrong(format!("--count must lie between 1 and {MOST_GRAINS}")));
+    }
+    let volume: f64 = request.size.iter().product();
+    let amount = match (request.count, request.porosity) {
+        (_, Some(_)) if request.bed => {
+            let problem = "--porosity: a bed finds its own; --friction sets how dense it gets";
+            return Err(wrong(problem.to_owned()));
+        }
+        (None, Some(porosity)) if porosity > 0.0 && porosity < 1.0 => {
+            Amount::Volume { volume: (1.0 - porosity) * volume, most: MOST_GRAINS }
+        }
+        (_, Some(porosity)) if !(porosity > 0.0 && porosity < 1.0) => {
+            return Err(wrong(format!("--porosity {porosity}: it must lie between 0 and 1")));
+        }
+        (Some(count), porosity) => match (request.diameter, porosity) {
+            (None, Some(porosity)) => {
+                return Ok(vec![radius_for(porosity, count, volume); count]);
+            }
+            (Some(_), Some(_)) => {
+                let problem = "--count, --porosity and --diameter: give two of them";
+                return Err(wrong(problem.to_owned()));
+            }
+            (_, None) => Amount::Count(count),
+        },
+        (None, _) => return Err(wrong("give --count, or --porosity".to_owned())),
+    };
+    let Some(low) = request.diameter else {
+        return Err(wrong("give --diameter, in m".to_owned()));
+    };
+    let high = request.largest_diameter.unwrap_or(low);
+    if !(high >= low && high.is_finite()) {
+        return Err(wrong(format!("--largest-diameter {high}: it must be at least {low}")));
+    }
+    let sizes = Sizes { diameters: [low, high], seed: request.seed };
+    sizes.radii(amount).ok_or_else(|| {
+        wrong(format!(
+            "there would be no grain, or more than {MOST_GRAINS}: change size or diameter"
+        ))
+    })
+}
+
+/// Shows that it works, and for how long; how long it will take is not known.
+fn spinner(request: &PackRequest, count: usize, json: bool) -> ProgressBar {
+    if json || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed} so far") {
+        bar.set_style(style);
+    }
+    let what = if request.bed { "grains settle" } else { "grains are pushed apart" };
+    bar.set_message(format!("{count} {what}"));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+fn wrong(problem: String) -> CommandError {
+    CommandError::Usage(problem)
+}

@@ -1,0 +1,203 @@
+//! What can be told about free grains before they move.
+
+use std::f64::consts::PI;
+
+use psmrt_reference::coupling::{Gravity, InternalFluid};
+use psmrt_reference::domain::{FACE_NAMES, Face};
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::motion::Substeps;
+use psmrt_reference::lattice::{Vec3, viscosity};
+
+use super::{Number, Warning, number};
+use crate::scene::{FreePart, Scene};
+
+/// A grain pressed in by more than this share of its diameter is no hard sphere any more.
+const DEEP: f64 = 0.01;
+
+/// Contacts shorter than so many time steps are over before the fluid takes part.
+const BRIEF: f64 = 4.0;
+
+/// More sub-steps than this in a time step begin to cost as much as the fluid.
+const MANY: u32 = 100;
+
+/// Gravity, and what of a grain's mass it acts on.
+fn pull(part: &FreePart) -> Vec3 {
+    match part.settings.gravity {
+        Some(Gravity::Reduced { acceleration } | Gravity::OnFluidToo { acceleration }) => {
+            acceleration
+        }
+        None => Vec3::zeros(),
+    }
+}
+
+/// Weight less buoyancy, lattice units.
+fn buoyant_weight(part: &FreePart, grain: &Grain) -> f64 {
+    (grain.mass - sphere_volume(grain.radius)).abs() * pull(part).norm()
+}
+
+fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
+    part.grains.iter().filter(|grain| !grain.held)
+}
+
+/// The largest velocity at which a free grain would settle by Stokes' law, cells per time step; 0
+/// without gravity. At Reynolds numbers above 1 grains settle more slowly.
+pub(super) fn stokes_velocity(scene: &Scene) -> f64 {
+    let Some(part) = &scene.free else { return 0.0 };
+    let nu = viscosity(scene.setup.collision.tau());
+    // (m_s - m_f) g = 6 π ν ρ a v
+    let velocity = |grain: &Grain| buoyant_weight(part, grain) / (6.0 * PI * nu * grain.radius);
+    free(part).map(velocity).fold(0.0, f64::max)
+}
+
+/// How deep weight presses a grain into the floor, in its diameters: alone, and under all others.
+fn overlaps(scene: &Scene, part: &FreePart) -> [f64; 2] {
+    let stiffness = part.setup.law.stiffness;
+    let depth = |grain: &Grain| buoyant_weight(part, grain) / (stiffness * 2.0 * grain.radius);
+    let alone = free(part).map(depth).fold(0.0, f64::max);
+    // The weight of all, spread over the area that gravity sees: on a grain of diameter d its d².
+    let g = pull(part);
+    let along = (0..3).max_by(|&a, &b| g[a].abs().total_cmp(&g[b].abs())).unwrap_or(2);
+    let cells = scene.setup.domain.cells().map(|n| n as f64);
+    let area: f64 = (0..3).filter(|&axis| axis != along).map(|axis| cells[axis]).product();
+    let weight: f64 = free(part).map(|grain| buoyant_weight(part, grain)).sum();
+    let diameter = free(part).map(|grain| 2.0 * grain.radius).fold(0.0, f64::max);
+    [alone, alone.max(weight / area * diameter / stiffness)]
+}
+
+/// The derived numbers.
+pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
+    let Some(part) = &scene.free else { return Vec::new() };
+    let (units, law) = (&scene.units, &part.setup.law);
+    let ratio = |grain: &Grain| grain.mass / sphere_volume(grain.radius);
+    let (low, high) = free(part)
+        .map(ratio)
+        .fold((f64::INFINITY, 0.0_f64), |(low, high), ratio| (low.min(ratio), high.max(ratio)));
+    let note = if high > low { format!("the heaviest has {high:.3}") } else { String::new() };
+    let pair = 0.5 * free(part).map(|grain| grain.mass).fold(f64::INFINITY, f64::min);
+    let (duration, settle) = (law.duration(pair), stokes_velocity(scene));
+    let count = free(part).count();
+    let substeps = part.substeps().unwrap_or(0);
+    let chosen = match part.setup.substeps {
+        Substeps::Automatic => "25 in the shortest contact",
+        Substeps::Fixed(_) => "as given",
+    };
+    let restitution =
+        format!("two of the lightest part at {:.3} of their speed", law.restitution(pair));
+    let mut numbers = vec![
+        number("free grains", count as f64, "", format!("of {}", part.grains.len())),
+        number("density ratio", low, "", note),
+        number(
+            "contact duration",
+            duration * units.si_dt,
+            "s",
+            format!("{duration:.2} time steps, of two of the lightest"),
+        ),
+        number("stiffness", law.stiffness * units.si_stiffness(), "N/m", "normal spring"),
+        number("damping", law.damping * units.si_damping(), "N s/m", restitution),
+        number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")),
+    ];
+    if settle > 0.0 {
+        let [alone, under] = overlaps(scene, part);
+        let note = format!("{settle:.2e} cells per time step; of the fastest grain, alone");
+        numbers.push(number("Stokes velocity", settle * units.si_velocity(), "m/s", note));
+        let note = format!("of a diameter, by its weight; {under:.1e} under all others");
+        numbers.push(number("overlap", alone, "", note));
+    }
+    numbers
+}
+
+/// The models that are on, with the keys that say so.
+pub(super) fn models(scene: &Scene) -> Vec<String> {
+    let Some(part) = &scene.free else { return Vec::new() };
+    let (law, settings) = (&part.setup.law, &part.settings);
+    let inertia = match settings.internal_fluid {
+        InternalFluid::Lagged => "given back a step later",
+        InternalFluid::Kept => "kept",
+    };
+    let averaged = if settings.average_loads { ", mean of two loads" } else { "" };
+    let mut models = vec![format!(
+        "free grains: DEM (motion = \"free\"); inertia of the fluid inside {inertia}{averaged}"
+    )];
+    let friction = match law.friction {
+        Some(friction) => format!(
+            "friction {}, tangential stiffness {:.4} of the normal one",
+            friction.coefficient,
+            friction.stiffness / law.stiffness
+        ),
+        None => "smooth".to_owned(),
+    };
+    let rolling = match law.rolling {
+        Some(rolling) => format!(", rolling resistance {}", rolling.coefficient),
+        None => String::new(),
+    };
+    models.push(format!("contact: spring and dashpot, {friction}{rolling} (contact; keys that are absent take defaults)"));
+    if let Some(lubrication) = part.setup.lubrication {
+        models.push(format!(
+            "lubrication: between gaps of {:.3e} and {:.3e} m (lubrication)",
+            lubrication.smallest_gap * scene.units.si_dx,
+            lubrication.cutoff_gap * scene.units.si_dx
+        ));
+    }
+    match settings.gravity {
+        Some(Gravity::Reduced { .. }) => {
+            models.push("gravity: reduced pressure, grains carry weight less buoyancy".to_owned());
+        }
+        Some(Gravity::OnFluidToo { .. }) => {
+            models.push("gravity: as a body force on the fluid, and on the grains".to_owned());
+        }
+        None => {}
+    }
+    for axis in 0..3 {
+        for side in 0..2 {
+            if is_sieve(&scene.setup.domain.faces().axis(axis)[side]) {
+                let name = FACE_NAMES[axis][side];
+                models
+                    .push(format!("face {name}: holds grains back as a sieve (open to the fluid)"));
+            }
+        }
+    }
+    models
+}
+
+fn is_sieve(face: &Face) -> bool {
+    matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow | Face::Pressure { .. })
+}
+
+/// What looks risky.
+pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    let Some(part) = &scene.free else { return Vec::new() };
+    let mut warnings = Vec::new();
+    let mut warn = |reason: String, remedy: &str| {
+        warnings.push(Warning { reason, remedy: remedy.to_owned() });
+    };
+    if let Some(Gravity::OnFluidToo { .. }) = part.settings.gravity {
+        let reason = "gravity as a body force: the fluid displaced is the sum of the weights B, so that \
+                      the buoyancy is only 58, 80 and 88 % of V g at 4, 8 and 12 cells per diameter";
+        warn(reason.to_owned(), "use `form = \"reduced\"`, with which hydrostatics is exact");
+    } else if scene.setup.body_force.is_some() {
+        let reason = "a body force on the fluid does not push the grains as the pressure gradient that \
+                      it stands for would: they lack V grad p";
+        warn(reason.to_owned(), "drive the flow by pressure faces, or add the force to [gravity]");
+    }
+    let [_, under] = overlaps(scene, part);
+    if under > DEEP {
+        let reason = format!("weight presses grains into each other by {under:.1e} of a diameter");
+        warn(reason, "make contacts shorter (contact.duration) or stiffer (contact.stiffness)");
+    }
+    let pair = 0.5 * free(part).map(|grain| grain.mass).fold(f64::INFINITY, f64::min);
+    let duration = part.setup.law.duration(pair);
+    if duration < BRIEF {
+        let reason = format!(
+            "contacts last {duration:.1} time steps: the load of the fluid is held during \
+                              a step, and it hardly takes part"
+        );
+        warn(reason, "make contacts last 10 time steps (contact.duration)");
+    }
+    if let Some(count) = part.substeps().ok().filter(|&count| count > MANY) {
+        let reason = format!(
+            "the grains make {count} sub-steps in a time step: they cost more than the fluid"
+        );
+        warn(reason, "make contacts last longer (contact.duration), 10 time steps are usual");
+    }
+    warnings
+}

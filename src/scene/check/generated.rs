@@ -1,0 +1,178 @@
+//! Grains that are put down by a rule with a seed: random suspensions and settled beds.
+
+use psmrt_reference::domain::Face;
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::packing::bed::{BedSides, SettledBed};
+use psmrt_reference::grains::packing::periodic::PeriodicPacking;
+use psmrt_reference::grains::packing::suspension::RandomSuspension;
+use psmrt_reference::grains::packing::{Packing, PackingError};
+
+use super::Trouble;
+use super::contact::DEFAULT_FRICTION;
+use super::grain_kinds::size_key;
+use super::grains::{Ball, Place, check_size};
+use super::numbers::{absent, count, needed, positive};
+use crate::packing::{Amount, Sizes};
+use crate::scene::format_grains::GrainsSection;
+
+/// Above this solid fraction random places run out: grains are pushed apart instead.
+const DILUTE: f64 = 0.25;
+
+/// Volume of spheres over that of the box in their densest packing, rounded down.
+const DENSEST: f64 = 0.74;
+
+/// More grains are refused: a scene is read in seconds.
+const MOST_GRAINS: usize = 1_000_000;
+
+/// More grains are refused in a bed, which takes minutes then: `psmrt pack` makes it once.
+const MOST_IN_BED: usize = 20_000;
+
+/// A random suspension.
+pub(super) fn random(section: &GrainsSection, place: &Place) -> Result<Vec<Ball>, Trouble> {
+    let (at, si_lengths) = (&place.at, place.si_lengths());
+    absent(&at("packing_friction"), section.packing_friction.as_ref(), "grains of kind `bed`")?;
+    let seed = seed(section, place)?;
+    let amount = match (section.count, section.solid_fraction) {
+        (Some(number), None) => Amount::Count(whole(&at("count"), number, MOST_GRAINS)?),
+        (None, Some(fraction)) if fraction > 0.0 && fraction < DENSEST => Amount::Volume {
+            volume: fraction * si_lengths.iter().product::<f64>(),
+            most: MOST_GRAINS,
+        },
+        (None, Some(_)) => {
+            let problem = "it must lie between 0 and 0.74, the densest packing of equal spheres";
+            return Err(Trouble::new(at("solid_fraction"), problem, "0.3 is dense, 0.6 a bed"));
+        }
+        (Some(_), Some(_)) => {
+            let problem = "the section has both `count` and `solid_fraction`";
+            return Err(Trouble::new(at("solid_fraction"), problem, "give one of them"));
+        }
+        (None, None) => {
+            let problem = "it is missing: a suspension needs `count` or `solid_fraction`";
+            return Err(Trouble::new(at("count"), problem, "add one of them"));
+        }
+    };
+    let radii = radii(section, place, amount, seed)?;
+    let gap = section.gap.unwrap_or(0.0);
+    if !(gap >= 0.0 && gap.is_finite()) {
+        let problem = "it must be finite and not negative";
+        return Err(Trouble::new(at("gap"), problem, "give a length in m, or leave it out"));
+    }
+    let periodic: [bool; 3] = std::array::from_fn(|axis| place.domain.is_periodic(axis));
+    let volume: f64 = radii.iter().map(|&radius| sphere_volume(radius)).sum();
+    let dense = volume / si_lengths.iter().product::<f64>() > DILUTE;
+    let packing = if dense && periodic == [true; 3] {
+        let mean = radii.iter().sum::<f64>() / radii.len() as f64;
+        let wanted = PeriodicPacking::new(si_lengths, radii, seed);
+        PeriodicPacking { clearance: 0.5 * gap / mean, ..wanted }.make()
+    } else {
+        RandomSuspension { lengths: si_lengths, periodic, radii, gap, seed }.make()
+    };
+    balls(packing, place)
+}
+
+/// A settled bed on the face at z = 0.
+pub(super) fn bed(section: &GrainsSection, place: &Place) -> Result<Vec<Ball>, Trouble> {
+    let (at, si_lengths) = (&place.at, place.si_lengths());
+    absent(&at("gap"), section.gap.as_ref(), "grains of kind `random`")?;
+    let belongs = "grains of kind `array` and `random`; friction sets the density of a bed";
+    absent(&at("solid_fraction"), section.solid_fraction.as_ref(), belongs)?;
+    let seed = seed(section, place)?;
+    let because = "a bed needs it";
+    let number = needed(&at("count"), section.count, because, "add `count`, the number of grains")?;
+    let number = whole(&at("count"), number, MOST_IN_BED)?;
+    let radii = radii(section, place, Amount::Count(number), seed)?;
+    let friction = section.packing_friction.unwrap_or(DEFAULT_FRICTION);
+    if !(friction >= 0.0 && friction.is_finite()) {
+        let problem = "it must be finite and not negative";
+        let remedy = "0 packs dense, 0.5 is usual for sand";
+        return Err(Trouble::new(at("packing_friction"), problem, remedy));
+    }
+    let faces = place.domain.faces();
+    if faces.axis(2)[0] == Face::Periodic {
+        let problem = "a bed lies on the face z_low, which is periodic";
+        return Err(Trouble::new(at("kind"), problem, "make z_low a wall, or use `random`"));
+    }
+    let sides = match [0, 1].map(|axis| place.domain.is_periodic(axis)) {
+        [true, true] => BedSides::Periodic,
+        [false, false] => BedSides::Walls,
+        _ => {
+            let problem = "a bed needs x and y both periodic or both not";
+            let remedy = "change the faces, or make the bed with another code and read it as `csv`";
+            return Err(Trouble::new(at("kind"), problem, remedy));
+        }
+    };
+    let lengths = [si_lengths[0], si_lengths[1]];
+    balls(SettledBed { lengths, sides, radii, friction, seed }.make(), place)
+}
+
+fn seed(section: &GrainsSection, place: &Place) -> Result<u64, Trouble> {
+    u64::try_from(section.seed.unwrap_or(1)).map_err(|_| {
+        Trouble::new((place.at)("seed"), "it must be a whole number of at least 0", "try 1")
+    })
+}
+
+fn whole(key: &str, given: i64, most: usize) -> Result<usize, Trouble> {
+    let number = count(key, given)?;
+    usize::try_from(number).ok().filter(|&number| number <= most).ok_or_else(|| {
+        let remedy = "take fewer, or make them with `psmrt pack` and read them as `csv`";
+        Trouble::new(key, format!("{most} is the limit"), remedy)
+    })
+}
+
+/// Radii, m: all alike, or evenly distributed over `diameter_range`.
+fn radii(
+    section: &GrainsSection,
+    place: &Place,
+    amount: Amount,
+    seed: u64,
+) -> Result<Vec<f64>, Trouble> {
+    let at = &place.at;
+    let si_diameters = match (section.diameter, section.diameter_range) {
+        (Some(si_diameter), None) => {
+            positive(&at("diameter"), si_diameter, "m")?;
+            [si_diameter; 2]
+        }
+        (None, Some([low, high])) => {
+            if !(low > 0.0 && low <= high && high.is_finite()) {
+                let problem = "it must be two lengths above 0, the smaller first";
+                return Err(Trouble::new(at("diameter_range"), problem, "[1e-4, 2e-4], say"));
+            }
+            [low, high]
+        }
+        (Some(_), Some(_)) => {
+            let problem = "the section has both `diameter` and `diameter_range`";
+            return Err(Trouble::new(at("diameter_range"), problem, "give one of them"));
+        }
+        (None, None) => {
+            let problem = "it is missing: these grains need `diameter` or `diameter_range`";
+            return Err(Trouble::new(at("diameter"), problem, "add one of them, in m"));
+        }
+    };
+    // Before any work: sizes and numbers out of all proportion would take for ever.
+    check_size(&size_key(section, *at), 0.5 * si_diameters[0] / place.units.si_dx, place.units)?;
+    let si_volume: f64 = place.si_lengths().iter().product();
+    if let Amount::Count(count) = amount
+        && count as f64 * sphere_volume(0.5 * si_diameters[0]) > DENSEST * si_volume
+    {
+        let problem = "so many grains do not fit into the box";
+        return Err(Trouble::new(at("count"), problem, "take fewer or smaller grains"));
+    }
+    Sizes { diameters: si_diameters, seed }.radii(amount).ok_or_else(|| {
+        let key = if section.solid_fraction.is_some() { "solid_fraction" } else { "count" };
+        let problem = format!("there would be no grain, or more than {MOST_GRAINS}");
+        Trouble::new(at(key), problem, "change it, or the diameter")
+    })
+}
+
+fn balls(packing: Result<Packing, PackingError>, place: &Place) -> Result<Vec<Ball>, Trouble> {
+    let packing = packing.map_err(|error| {
+        let remedy = "change number, size, seed or box; `psmrt pack` makes dense packings";
+        Trouble::new((place.at)("kind"), error.to_string(), remedy)
+    })?;
+    let ball = |grain: &Grain| Ball {
+        si_centre: grain.position.into(),
+        si_diameter: 2.0 * grain.radius,
+        si_density: None,
+    };
+    Ok(packing.grains.iter().map(ball).collect())
+}

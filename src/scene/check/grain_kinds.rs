@@ -1,0 +1,97 @@
+//! The kinds of grains: which keys belong to which, and what spheres they make.
+
+use std::path::Path;
+
+use super::grains::{Ball, Place};
+use super::numbers::{absent, finite, needed, positive};
+use super::{Trouble, arrays, generated, grain_list};
+use crate::scene::format_grains::{GrainsKind, GrainsSection};
+
+/// The key to blame for where a grain is.
+pub(super) fn place_key(section: &GrainsSection, at: &dyn Fn(&str) -> String) -> String {
+    match section.kind {
+        GrainsKind::Sphere => at("centre"),
+        GrainsKind::Csv => at("file"),
+        GrainsKind::Array if section.diameter.is_some() => at("diameter"),
+        GrainsKind::Array => at("solid_fraction"),
+        GrainsKind::Bed => at("count"),
+        GrainsKind::Random if section.count.is_some() => at("count"),
+        GrainsKind::Random => at("solid_fraction"),
+    }
+}
+
+/// The key to blame for how large a grain is.
+pub(super) fn size_key(section: &GrainsSection, at: &dyn Fn(&str) -> String) -> String {
+    match section.kind {
+        GrainsKind::Csv | GrainsKind::Array => place_key(section, at),
+        _ if section.diameter_range.is_some() => at("diameter_range"),
+        _ => at("diameter"),
+    }
+}
+
+/// Errors at a key that belongs to another kind.
+pub(super) fn foreign_keys(
+    section: &GrainsSection,
+    at: &dyn Fn(&str) -> String,
+) -> Result<(), Trouble> {
+    let kind = section.kind;
+    if kind != GrainsKind::Sphere {
+        absent(&at("centre"), section.centre.as_ref(), "grains of kind `sphere`")?;
+    }
+    if kind == GrainsKind::Csv {
+        let belongs = "grains of other kinds than `csv`; the file has its own";
+        absent(&at("diameter"), section.diameter.as_ref(), belongs)?;
+    } else {
+        absent(&at("file"), section.file.as_ref(), "grains of kind `csv`")?;
+    }
+    if kind != GrainsKind::Array {
+        let belongs = "grains of kind `array`";
+        absent(&at("lattice"), section.lattice.as_ref(), belongs)?;
+        absent(&at("counts"), section.counts.as_ref(), belongs)?;
+    }
+    if !matches!(kind, GrainsKind::Random | GrainsKind::Bed) {
+        let belongs = "grains of kind `random` and `bed`";
+        absent(&at("diameter_range"), section.diameter_range.as_ref(), belongs)?;
+        absent(&at("count"), section.count.as_ref(), belongs)?;
+        absent(&at("seed"), section.seed.as_ref(), belongs)?;
+        absent(&at("gap"), section.gap.as_ref(), "grains of kind `random`")?;
+        absent(&at("packing_friction"), section.packing_friction.as_ref(), "grains of kind `bed`")?;
+    }
+    if !matches!(kind, GrainsKind::Random | GrainsKind::Array) {
+        let belongs = "grains of kind `array` and `random`";
+        absent(&at("solid_fraction"), section.solid_fraction.as_ref(), belongs)?;
+    }
+    Ok(())
+}
+
+/// The spheres of a section, and the contents of the file that they come from, if they do.
+pub(super) fn balls(
+    section: &GrainsSection,
+    folder: &Path,
+    place: &Place,
+) -> Result<(Vec<Ball>, Option<Vec<u8>>), Trouble> {
+    let balls = match section.kind {
+        GrainsKind::Sphere => vec![sphere(section, place.at)?],
+        GrainsKind::Csv => {
+            let remedy = "add `file = \"grains.csv\"`, relative to the scene file";
+            let (key, because) = ((place.at)("file"), "grains of kind `csv` need it");
+            let file = needed(&key, section.file.as_deref(), because, remedy)?;
+            let (bytes, balls) = grain_list::read(&key, &folder.join(file))?;
+            return Ok((balls, Some(bytes)));
+        }
+        GrainsKind::Array => arrays::balls(section, &place.at, place.domain, place.units)?,
+        GrainsKind::Random => generated::random(section, place)?,
+        GrainsKind::Bed => generated::bed(section, place)?,
+    };
+    Ok((balls, None))
+}
+
+fn sphere(section: &GrainsSection, at: &dyn Fn(&str) -> String) -> Result<Ball, Trouble> {
+    let remedy = "add `centre = [x, y, z]` in m";
+    let si_centre = needed(&at("centre"), section.centre, "a sphere needs it", remedy)?;
+    finite(&at("centre"), &si_centre, "m")?;
+    let remedy = "add `diameter`, in m";
+    let si_diameter = needed(&at("diameter"), section.diameter, "a sphere needs it", remedy)?;
+    positive(&at("diameter"), si_diameter, "m")?;
+    Ok(Ball { si_centre, si_diameter, si_density: None })
+}

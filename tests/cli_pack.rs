@@ -1,0 +1,169 @@
+//! `psmrt pack` and grains that scenes make by themselves: what is asked for, the same for a seed.
+
+mod cli;
+
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+
+use cli::{Folder, psmrt, psmrt_in, stderr, stdout};
+use psmrt::scene::Scene;
+use psmrt_reference::solids::{Shape, Solid};
+
+/// Runs `psmrt pack` with these options in a folder; its JSON.
+fn pack(folder: &Folder, options: &str) -> serde_json::Value {
+    let arguments: Vec<&str> = ["pack", "--json"].into_iter().chain(options.split(' ')).collect();
+    let output = psmrt_in(&folder.path(""), &arguments);
+    assert!(output.status.success(), "{options}: {}", stderr(&output));
+    serde_json::from_str(&stdout(&output)).unwrap()
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_and_another_seed_other_ones() {
+    let folder = Folder::new("pack_seed");
+    let bytes = |options: &str, out: &str| {
+        pack(&folder, &format!("{options} --out {out}"));
+        fs::read(folder.path(out)).unwrap()
+    };
+    let periodic =
+        "--size 6e-4,5e-4,4e-4 --diameter 8e-5 --largest-diameter 1.2e-4 --porosity 0.45";
+    let bed = "--bed --walls --size 4e-4,4e-4 --diameter 1e-4 --count 60 --density 2650";
+    for options in [periodic, bed] {
+        let first = bytes(options, "a.csv");
+        assert!(first == bytes(options, "b.csv"));
+        assert!(first != bytes(&format!("{options} --seed 2"), "c.csv"));
+        for name in ["a.csv", "b.csv", "c.csv"] {
+            fs::remove_file(folder.path(name)).unwrap();
+        }
+    }
+}
+
+#[test]
+fn a_packing_has_the_porosity_asked_for_and_a_scene_reads_it() {
+    let folder = Folder::new("pack_read");
+    let told = pack(&folder, "--size 4e-4,4e-4,4e-4 --count 60 --porosity 0.42 --density 2650");
+    assert!((told["porosity"].as_f64().unwrap() - 0.42).abs() < 1e-9, "{told}");
+    assert!(told["largest_overlap"].as_f64().unwrap() <= 2e-3 && told["grains"] == 60, "{told}");
+    let scene = folder.write(
+        "scene.toml",
+        "[domain]\ncells = [40, 40, 40]\ndx = 1e-5\n[fluid]\ndensity = 1000.0\n\
+         kinematic_viscosity = 1e-6\n[time]\ntau = 0.8\n[stop]\nsteps = 1\n[[grains]]\nkind = \"csv\"\n\
+         file = \"grains.csv\"\nmotion = \"free\"\n",
+    );
+    let output = psmrt(&["check", scene.to_str().unwrap(), "--json"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let said: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let numbers = said["numbers"].as_array().unwrap();
+    let fraction = numbers.iter().find(|number| number["name"] == "solid fraction").unwrap();
+    assert!((fraction["value"].as_f64().unwrap() - 0.58).abs() < 1e-9, "{fraction}");
+}
+
+#[test]
+fn a_list_that_is_there_is_not_replaced_unless_asked() {
+    let folder = Folder::new("pack_there");
+    folder.write("grains.csv", "mine");
+    let options = ["pack", "--size", "4e-4,4e-4,4e-4", "--count", "20", "--porosity", "0.6"];
+    let output = psmrt_in(&folder.path(""), &options);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("--force"), "{}", stderr(&output));
+    assert_eq!(fs::read(folder.path("grains.csv")).unwrap(), b"mine");
+    pack(&folder, &(options[1..].join(" ") + " --force"));
+    assert!(fs::read(folder.path("grains.csv")).unwrap().starts_with(b"# 20 grains"));
+}
+
+#[test]
+fn packings_that_cannot_be_made_are_refused_and_leave_nothing() {
+    let folder = Folder::new("pack_bad");
+    for (options, told) in [
+        ("--size 1e-3,1e-3 --diameter 1e-4 --count 10", "x,y,z"),
+        ("--size 1e-3,1e-3,0 --diameter 1e-4 --count 10", "--size 0"),
+        ("--size 1e-3,1e-3,1e-3 --diameter nan --count 10", "--diameter"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 1e-4", "--count, or --porosity"),
+        ("--size 1e-3,1e-3,1e-3 --count 10", "--diameter"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 1e-4 --count 0", "--count"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 1e-4 --porosity 1.5", "between 0 and 1"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 1e-4 --porosity 0.2", "denser than spheres"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 1e-7 --porosity 0.5", "no grain, or more"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 1e-4 --count 9 --porosity 0.5", "two of them"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 2e-4 --largest-diameter 1e-4 --count 9", "at least"),
+        ("--size 1e-3,1e-3,1e-3 --diameter 2e-3 --count 1", "porosity"),
+        ("--bed --size 1e-3,1e-3 --diameter 1e-4 --porosity 0.4", "finds its own"),
+        ("--bed --size 1e-3,1e-3 --diameter 1e-4 --count 9 --friction=-1", "--friction"),
+        ("--bed --size 1e-3,1e-3 --diameter 2e-3 --count 9", "box length"),
+    ] {
+        let arguments: Vec<&str> = ["pack"].into_iter().chain(options.split(' ')).collect();
+        let output = psmrt_in(&folder.path(""), &arguments);
+        assert_eq!(output.status.code(), Some(2), "{options}: {}", stderr(&output));
+        assert!(stderr(&output).contains(told), "{options}: {}", stderr(&output));
+        assert!(folder.entries().is_empty(), "{options}");
+    }
+}
+
+fn solids(grains: &str, faces: &str) -> Vec<Solid> {
+    let text = format!(
+        "[domain]\ncells = [40, 32, 48]\ndx = 1e-5\n[fluid]\ndensity = 1000.0\n\
+         kinematic_viscosity = 1e-6\n[time]\ntau = 0.8\n[stop]\nsteps = 1\n{faces}\n[[grains]]\n{grains}"
+    );
+    let scene = Scene::from_bytes("scene.toml", text.into_bytes(), Path::new("."), &[]);
+    scene.unwrap_or_else(|error| panic!("{error}")).setup.solid_phase.unwrap().solids
+}
+
+fn radius(solid: &Solid) -> f64 {
+    let Shape::Sphere { radius } = solid.shape else { panic!() };
+    radius
+}
+
+const WALLS: &str = "[faces]\nx_low.kind = \"wall\"\nx_high.kind = \"wall\"\ny_low.kind = \"wall\"\n\
+                     y_high.kind = \"wall\"\nz_low.kind = \"wall\"\nz_high.kind = \"wall\"\n";
+
+#[test]
+fn a_random_suspension_has_the_fraction_the_gap_and_the_seed_asked_for() {
+    let grains = "kind = \"random\"\nsolid_fraction = 0.12\ndiameter = 5e-5\ngap = 5e-6\nseed = 4";
+    for (faces, periodic) in [("", true), (WALLS, false)] {
+        let found = solids(grains, faces);
+        let fraction = found.len() as f64 * PI / 6.0 * 5.0_f64.powi(3) / (40.0 * 32.0 * 48.0);
+        // To half a grain of the 113.
+        assert!((fraction / 0.12 - 1.0).abs() < 0.5 / 112.0, "{fraction}");
+        let lengths = [40.0, 32.0, 48.0];
+        for (number, one) in found.iter().enumerate() {
+            for axis in 0..3 {
+                let margin = if periodic { 0.0 } else { 3.0 };
+                assert!((margin..=lengths[axis] - margin).contains(&one.centre[axis]));
+            }
+            for two in &found[..number] {
+                let mut between = one.centre - two.centre;
+                for axis in (0..3).filter(|_| periodic) {
+                    between[axis] -= lengths[axis] * (between[axis] / lengths[axis]).round();
+                }
+                // Diameter and gap, to round-off of the conversion from metres.
+                assert!(between.norm() >= 5.5 - 1e-9, "{}", between.norm());
+            }
+        }
+        assert!(found == solids(grains, faces));
+        assert!(found != solids(&grains.replace("seed = 4", "seed = 5"), faces));
+    }
+}
+
+#[test]
+fn a_dense_periodic_suspension_is_pushed_apart_and_sizes_lie_in_their_range() {
+    let grains = "kind = \"random\"\nsolid_fraction = 0.5\ndiameter_range = [5e-5, 8e-5]";
+    let found = solids(grains, "");
+    let volume: f64 = found.iter().map(|solid| 4.0 / 3.0 * PI * radius(solid).powi(3)).sum();
+    // To half of the largest grain.
+    assert!((volume - 0.5 * 61440.0).abs() < 0.5 * PI / 6.0 * 512.0, "{volume}");
+    let (low, high) = found.iter().fold((9.0_f64, 0.0_f64), |(low, high), solid| {
+        (low.min(radius(solid)), high.max(radius(solid)))
+    });
+    assert!((2.5..2.8).contains(&low) && (3.7..4.0).contains(&high), "{low} {high}");
+}
+
+#[test]
+fn a_bed_lies_on_the_floor_between_its_walls() {
+    let grains = "kind = \"bed\"\ncount = 40\ndiameter = 8e-5\npacking_friction = 0.3";
+    let found = solids(grains, WALLS);
+    assert_eq!(found.len(), 40);
+    let lowest = found.iter().map(|solid| solid.centre.z - 4.0).fold(f64::INFINITY, f64::min);
+    let highest = found.iter().map(|solid| solid.centre.z + 4.0).fold(0.0, f64::max);
+    // Pressed into the floor by less than a hundredth of a diameter; 40 grains make three layers.
+    assert!(lowest.abs() < 0.08 && highest < 32.0, "{lowest} {highest}");
+}

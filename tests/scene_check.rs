@@ -1,0 +1,143 @@
+//! What `psmrt check` tells of free grains: numbers against formulas in SI units, warnings where due.
+
+use std::path::Path;
+
+use psmrt::estimate::{models, numbers, warnings};
+use psmrt::scene::Scene;
+
+/// A grain of quartz in water in a closed box, 8 cells per diameter.
+const SCENE: &str = r#"
+[domain]
+cells = [32, 32, 64]
+dx = 6.25e-6
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.8
+[faces]
+x_low.kind = "wall"
+x_high.kind = "wall"
+y_low.kind = "wall"
+y_high.kind = "wall"
+z_low.kind = "wall"
+z_high.kind = "wall"
+[gravity]
+acceleration = [0.0, 0.0, -9.81]
+[contact]
+friction = 0.3
+[[grains]]
+kind = "sphere"
+centre = [1e-4, 1e-4, 2e-4]
+diameter = 5e-5
+density = 2650.0
+motion = "free"
+[[records]]
+name = "means"
+kind = "grain_means"
+[stop]
+steps = 10
+"#;
+
+fn scene(text: &str) -> Scene {
+    Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), Path::new("."), &[])
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn derived_numbers_of_grains_follow_from_the_scene_in_si_units() {
+    let scene = scene(SCENE);
+    let found = numbers(&scene);
+    let value = |name: &str| found.iter().find(|number| number.name == name).unwrap().value;
+    let (d, dt) = (5e-5_f64, 0.1 * 6.25e-6_f64 * 6.25e-6 / 1e-6);
+    let volume = std::f64::consts::PI / 6.0 * d.powi(3);
+    // v = (ρ_s - ρ_f) g d²/(18 μ)
+    let stokes = 1650.0 * 9.81 * d * d / (18.0 * 1e-3);
+    let weight = 1650.0 * volume * 9.81;
+    // Two grains touch for 10 steps: 2 s(ζ)/√(k/m) with m half a grain's mass and e = exp(-2 ζ s) = 1/2,
+    // found by bisection apart from the code under test.
+    let (zeta, s) = damping_of_a_half();
+    let mass = 0.5 * 2650.0 * volume;
+    let stiffness = mass * (2.0 * s / (10.0 * dt)).powi(2);
+    for (name, wanted) in [
+        ("free grains", 1.0),
+        ("density ratio", 2.65),
+        ("contact duration", 10.0 * dt),
+        ("stiffness", stiffness),
+        ("damping", 2.0 * zeta * (stiffness * mass).sqrt()),
+        ("Stokes velocity", stokes),
+        ("velocity", stokes),
+        ("Mach number", 3.0_f64.sqrt() * stokes * dt / 6.25e-6),
+        ("Reynolds number", stokes * d / 1e-6),
+        ("overlap", weight / stiffness / d),
+    ] {
+        let found = value(name);
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} instead of {wanted}");
+    }
+    // 25 in the shortest contact. A lone grain meets walls only, with twice the reduced mass and the
+    // same springs: its contacts last 10 √2 = 14.1 steps, and 25/14.1 makes 2.
+    assert_eq!(value("sub-steps"), 2.0);
+}
+
+/// Damping ratio ζ and s(ζ) of a contact that returns half the speed, by bisection.
+fn damping_of_a_half() -> (f64, f64) {
+    let s = |zeta: f64| zeta.acos() / (1.0 - zeta * zeta).sqrt();
+    let (mut low, mut high) = (0.0, 0.99);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if (-2.0 * middle * s(middle)).exp() > 0.5 { low = middle } else { high = middle }
+    }
+    (low, s(low))
+}
+
+#[test]
+fn risky_scenes_of_grains_are_warned_of_with_a_remedy_and_a_sound_one_is_not() {
+    assert!(warnings(&scene(SCENE)).is_empty(), "{:?}", warnings(&scene(SCENE)));
+    for (from, to, reason, remedy) in [
+        ("-9.81]", "-9.81]\nform = \"body_force\"", "58, 80 and 88 %", "reduced"),
+        ("tau = 0.8", "tau = 1.6", "tau = 1.60 with grains of fewer", "time.tau"),
+        ("dx = 6.25e-6", "dx = 1.25e-5", "4.0 cells across", "domain.dx"),
+        ("friction = 0.3", "duration = 2e-3", "of a diameter", "contact.stiffness"),
+        ("friction = 0.3", "duration = 5e-6", "contacts last 1.3 time steps", "10 time steps"),
+        ("friction = 0.3", "duration = 5e-7", "sub-steps in a time step", "contact.duration"),
+        ("9.81", "9810.0", "Stokes' law for the fastest grain", "shorter time step"),
+        (
+            "[contact]",
+            "[body_force]\nacceleration = [1.0, 0.0, 0.0]\n[contact]",
+            "V grad p",
+            "pressure",
+        ),
+    ] {
+        let found = warnings(&scene(&SCENE.replace(from, to)));
+        let due = found.iter().find(|warning| warning.reason.contains(reason));
+        let due = due.unwrap_or_else(|| panic!("{to}: {found:?}"));
+        assert!(due.remedy.contains(remedy), "{due:?}");
+    }
+}
+
+#[test]
+fn models_of_grains_are_listed_only_where_they_are_on() {
+    let listed = |text: &str| models(&scene(text)).join("\n");
+    let plain = listed(SCENE);
+    assert!(plain.contains("free grains: DEM") && plain.contains("friction 0.3"), "{plain}");
+    assert!(
+        !plain.contains("lubrication") && !plain.contains("rolling") && !plain.contains("sieve")
+    );
+    let more = SCENE
+        .replace("friction = 0.3", "friction = 0.0\nrolling_resistance = 0.1\n[lubrication]")
+        .replace("z_high.kind = \"wall\"", "z_high = { kind = \"pressure\", pressure = 0.0 }");
+    let more = listed(&more);
+    for part in
+        ["smooth, rolling resistance 0.1", "lubrication: between", "face +z: holds grains back"]
+    {
+        assert!(more.contains(part), "{part}: {more}");
+    }
+    let held = SCENE.replace("density = 2650.0\nmotion = \"free\"", "");
+    let held =
+        held.replace("[gravity]\nacceleration = [0.0, 0.0, -9.81]\n[contact]\nfriction = 0.3", "");
+    let held = listed(&held.replace("grain_means", "loads"));
+    assert!(
+        !held.contains("DEM") && !held.contains("contact") && !held.contains("gravity"),
+        "{held}"
+    );
+}
