@@ -27,6 +27,9 @@ pub struct RunRequest {
 pub fn run(request: &RunRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
     let mut engine = engine(&scene, &request.scene, request.profile)?;
+    if request.profile && engine.profile().is_none() {
+        eprintln!("--profile: the engine {} does not keep its times", engine.name());
+    }
     let folder = folder::make(request.out.as_deref(), &folder::scene_name(&request.scene))?;
     // The copies of the files that the scene names come first: a folder with a scene in it is whole.
     for attachment in &scene.attachments {
