@@ -45,6 +45,16 @@ fn sphere_arrays_hold_their_claims() {
 }
 
 #[test]
+fn a_settling_grain_holds_its_claims() {
+    holds("stokes_settling", &mut Budget::oracle(43_000_000));
+}
+
+#[test]
+fn a_settling_cloud_holds_its_claims() {
+    holds("cloud_settling", &mut Budget::oracle(66_000_000));
+}
+
+#[test]
 fn committed_falls_of_ten_cate_hold_their_claims() {
     holds("ten_cate", &mut Budget::oracle(0));
 }

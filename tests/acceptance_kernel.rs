@@ -27,9 +27,19 @@ fn sphere_arrays_hold_their_claims() {
     holds("sphere_arrays", &mut Budget::kernel(80_000_000));
 }
 
+fn a_settling_grain_holds_its_claims() {
+    holds("stokes_settling", &mut Budget::kernel(43_000_000));
+}
+
+fn a_settling_cloud_holds_its_claims() {
+    holds("cloud_settling", &mut Budget::kernel(66_000_000));
+}
+
 fn main() -> ExitCode {
     trials::run(&[
         ("poiseuille_flow_holds_its_claims", poiseuille_flow_holds_its_claims),
         ("sphere_arrays_hold_their_claims", sphere_arrays_hold_their_claims),
+        ("a_settling_grain_holds_its_claims", a_settling_grain_holds_its_claims),
+        ("a_settling_cloud_holds_its_claims", a_settling_cloud_holds_its_claims),
     ])
 }

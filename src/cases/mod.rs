@@ -6,9 +6,11 @@
 //! Full-scale results are committed beside it with the command that made them.
 
 mod bench;
+mod cloud_settling;
 mod drift;
 mod poiseuille;
 mod sphere_arrays;
+mod stokes_settling;
 mod suspension;
 mod table;
 mod ten_cate;
@@ -49,8 +51,14 @@ pub struct Case {
 }
 
 /// All cases, in the order of the report.
-pub const CASES: &[Case] =
-    &[poiseuille::CASE, sphere_arrays::CASE, ten_cate::CASE, suspension::CASE];
+pub const CASES: &[Case] = &[
+    poiseuille::CASE,
+    sphere_arrays::CASE,
+    stokes_settling::CASE,
+    ten_cate::CASE,
+    suspension::CASE,
+    cloud_settling::CASE,
+];
 
 /// A claim about one number.
 #[derive(Clone, Debug, PartialEq)]

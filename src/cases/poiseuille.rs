@@ -25,8 +25,7 @@ pub const CASE: Case = Case {
 const CELLS: [u32; 3] = [8, 16, 32];
 
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
-    let mut table =
-        Table::new(&["engine", "rates", "cells_across", "relative_l2", "slip_l2"]);
+    let mut table = Table::new(&["engine", "rates", "cells_across", "relative_l2", "slip_l2"]);
     for (rates, scene) in [("magic", "scene.toml"), ("dhumieres", "dhumieres.toml")] {
         for cells in CELLS {
             let dx = 1e-3 / f64::from(cells);
