@@ -9,13 +9,16 @@
 //! | [`checkpoint`] | the state of a run in a file |
 //! | [`output`] | CSV, pictures, the folder of a run |
 //! | [`estimate`] | what a scene will be, cost and risk |
+//! | [`cases`] | the acceptance cases: measured, judged, drawn |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
+//! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
 //! | [`machine`] | what this machine has |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+pub mod cases;
 pub mod checkpoint;
 pub mod command;
 pub mod engine;
@@ -23,6 +26,7 @@ pub mod estimate;
 pub mod exact;
 pub mod kernel;
 pub mod machine;
+pub mod oracle;
 pub mod output;
 pub mod packing;
 pub mod run;

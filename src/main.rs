@@ -10,6 +10,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
 use psmrt::command::pack::PackRequest;
+use psmrt::command::oracle::OracleCommand;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::{self, CommandError};
@@ -84,6 +85,11 @@ Examples:
   psmrt pack --size 1e-3,1e-3,1e-3 --count 1000 --porosity 0.4 --out packing.csv
   psmrt pack --bed --size 1e-3,1e-3 --diameter 1e-4 --count 500 --walls --out bed.csv")]
     Pack(PackRequest),
+    /// Problems for other people's kernels, a verdict and a diagnosis back
+    Oracle {
+        #[command(subcommand)]
+        command: OracleCommand,
+    },
     /// Says what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -148,6 +154,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
             command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })
         }
         Command::Pack(request) => command::pack::pack(&request, json),
+        Command::Oracle { command } => command::oracle::oracle(&command, json),
         Command::Info => {
             command::info::info(json);
             Ok(())
@@ -166,6 +173,9 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
 
 /// Says what went wrong: as JSON, in colour on a terminal, or plainly.
 fn report(error: &CommandError, json: bool) {
+    if matches!(error, CommandError::CandidateFailed) {
+        return; // the verdict is the report
+    }
     if json {
         println!("{}", error.to_json());
         return;

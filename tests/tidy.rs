@@ -24,14 +24,13 @@ fn text(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-#[test]
-fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
-    const CALL: &str = "Budget::oracle(";
+/// The sum of the literals in all calls of `call` in the tests.
+fn declared(call: &str) -> u64 {
     let mut sum = 0;
     for path in files("tests", &[".rs"]) {
         let text = text(&path);
-        for call in text.split(CALL).skip(1) {
-            let literal = call.split(')').next().unwrap();
+        for rest in text.split(call).skip(1) {
+            let literal = rest.split(')').next().unwrap();
             match literal.replace('_', "").parse::<u64>() {
                 Ok(updates) => sum += updates,
                 // Its own definition, and this file.
@@ -43,8 +42,17 @@ fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
             }
         }
     }
+    sum
+}
+
+#[test]
+fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
     // Six minutes of the oracle at a few million cell updates a second.
-    assert!(sum <= 1_000_000_000, "the tests declare {sum} cell updates of the oracle");
+    let oracle = declared("Budget::oracle(");
+    assert!(oracle <= 1_000_000_000, "the tests declare {oracle} cell updates of the oracle");
+    // The kernel's, on a software adapter.
+    let kernel = declared("Budget::kernel(");
+    assert!(kernel <= 2_000_000_000, "the tests declare {kernel} cell updates of the kernel");
 }
 
 #[test]
@@ -78,4 +86,49 @@ fn reference_knows_nothing_of_scenes_gpus_or_reports_and_the_report_nothing_of_s
             }
         }
     }
+}
+
+#[test]
+fn kernel_takes_from_the_reference_only_words_for_set_ups() {
+    // Module, and the names that may be taken from it; none where all of it is vocabulary.
+    const ALLOWED: [(&str, &[&str]); 9] = [
+        ("directions", &[]),
+        ("domain", &[]),
+        ("solids", &[]),
+        ("setup", &[]),
+        ("rates", &[]),
+        ("collision", &["Collision"]),
+        ("coverage", &["CoverageRule"]),
+        ("partial_saturation", &["SolidOperator", "Weighting"]),
+        ("lattice", &["Vec3"]),
+    ];
+    let mut uses = 0;
+    for path in files("src/kernel", &[".rs"]) {
+        let text = text(&path);
+        for rest in text.split("psmrt_reference::").skip(1) {
+            let path_of_use = rest.split(['\n', ';', '(', ' ', '.', ')']).next().unwrap();
+            let (module, names) = path_of_use.split_once("::").unwrap_or((path_of_use, ""));
+            // The braces of a `use` of several names.
+            let names = rest
+                .strip_prefix(&format!("{module}::{{"))
+                .map_or(names, |list| list.split('}').next().unwrap());
+            let allowed = ALLOWED.iter().find(|(known, _)| *known == module);
+            let Some((_, known)) = allowed else {
+                panic!("{} takes `{path_of_use}` from the reference", path.display());
+            };
+            for name in names.split(',').map(|name| name.trim().trim_matches(['{', '}'])) {
+                assert!(
+                    known.is_empty() || known.contains(&name),
+                    "{} takes `{module}::{name}` from the reference",
+                    path.display()
+                );
+            }
+            uses += 1;
+        }
+        // Methods that compute would come along with the words.
+        for method in [".weight(", "exact_fraction", "share_weight", ".diagonal(", ".fraction("] {
+            assert!(!text.contains(method), "{} calls {method}", path.display());
+        }
+    }
+    assert!(uses > 10, "only {uses} uses were found: has their form changed?");
 }

@@ -33,6 +33,7 @@
 //! | `layout.rs`, `legend.rs`, `text.rs` | where things go |
 //! | `notes.rs` | the lines under a figure, with what the axes leave out |
 //! | `look.rs`, `palette.rs` | which colour, dash and marker a series gets |
+//! | `page.rs` | the validation report: verdicts, figures and tables as one HTML page |
 //! | `render.rs`, `marks.rs`, `clip.rs`, `canvas.rs`, `write.rs` | drawing, on plotters' SVG backend |
 //!
 //! Positions are ours and not those of plotters' `ChartBuilder`: without a font plotters guesses
@@ -53,6 +54,7 @@ mod look;
 mod map;
 mod marks;
 mod notes;
+mod page;
 mod palette;
 mod render;
 mod series;
@@ -65,6 +67,7 @@ pub use error::PlotError;
 pub use figure::{Axis, Figure, Panel, Scale};
 pub use fit::PowerLaw;
 pub use map::{Map, render_map};
+pub use page::{DataTable, Page, Section, Verdict, render_page};
 pub use render::render_svg;
 pub use series::{Marker, Series, Style};
 pub use write::write_svg;

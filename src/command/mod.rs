@@ -4,6 +4,7 @@ pub mod check;
 mod comparison;
 mod execute;
 pub mod info;
+pub mod oracle;
 pub mod pack;
 mod profile;
 mod progress;
@@ -17,6 +18,7 @@ use thiserror::Error;
 use crate::checkpoint::CheckpointError;
 use crate::engine::{Engine, KernelEngine, ReferenceEngine, StartError};
 use crate::kernel::{Gpu, KernelError, adapters};
+use crate::oracle::files::FilesError;
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
@@ -58,6 +60,20 @@ pub enum CommandError {
         /// Why.
         error: String,
     },
+    /// The folder of a kit or of a candidate cannot be used.
+    #[error(transparent)]
+    Oracle(#[from] FilesError),
+    /// A candidate's folder without a single answer.
+    #[error(
+        "{folder} has no answers: put them at {folder}/PROBLEM/ANSWER.npy, as the kit's README says"
+    )]
+    NoAnswers {
+        /// The folder.
+        folder: String,
+    },
+    /// A candidate with wrong answers; the verdict has said which.
+    #[error("the candidate failed")]
+    CandidateFailed,
     /// The user has interrupted the run; its state is saved.
     #[error("interrupted; the state is saved: psmrt resume {folder}")]
     Interrupted {
@@ -84,8 +100,10 @@ impl CommandError {
             | CommandError::Folder(_)
             | CommandError::Resume(_)
             | CommandError::Usage(_)
+            | CommandError::Oracle(_)
+            | CommandError::NoAnswers { .. }
             | CommandError::Checkpoint { .. } => 2,
-            CommandError::Run(_) | CommandError::Write { .. } => 1,
+            CommandError::Run(_) | CommandError::Write { .. } | CommandError::CandidateFailed => 1,
             CommandError::Interrupted { .. } => 130,
         }
     }

@@ -10,7 +10,7 @@ use psmrt_reference::setup::Setup;
 
 use super::layout::Layout;
 use super::numbers::literal;
-use super::streaming::{access, faces};
+use super::streaming::{access, faces, vector_access};
 
 /// Invocations of `summary`, at most: enough to keep a large device busy, few enough to read back.
 const MOST_STRANDS: u32 = 16_384;
@@ -71,13 +71,13 @@ impl Work {
 impl Recipe<'_> {
     /// Workgroup of `step`: long in x.
     pub(super) fn workgroup(&self) -> [u32; 2] {
-        let along = self.layout.cells[0].next_power_of_two().min(64);
+        let along = self.layout.vectors().next_power_of_two().min(64);
         [along, 64 / along]
     }
 
     /// Invocations of `summary`.
     pub(super) fn strands(&self) -> u32 {
-        self.layout.count.div_ceil(32).next_multiple_of(64).min(MOST_STRANDS)
+        self.layout.places.div_ceil(32).next_multiple_of(64).min(MOST_STRANDS)
     }
 
     /// The shader for `work`.
@@ -89,7 +89,8 @@ impl Recipe<'_> {
         };
         let steps = matches!(work, Work::Step { .. } | Work::StepListed);
         let solids = if solids { self.solids } else { SolidData::None };
-        let flags = self.flags(solids, listed);
+        let is_wide = !listed && self.layout.width > 1;
+        let flags = self.flags(solids, listed, is_wide);
         let mut text = self.constants();
         let mut add = |file: &str| text += &selected(file, &flags);
         if steps || work == Work::Summary {
@@ -106,9 +107,12 @@ impl Recipe<'_> {
                 });
             }
         }
-        add(include_str!("wgsl/sums.wgsl"));
-        add(&access(&self.layout, steps));
-        if listed {
+        if !listed {
+            add(&vector_access(&self.layout));
+        } else {
+            add(include_str!("wgsl/places.wgsl"));
+            add(include_str!("wgsl/sums.wgsl"));
+            add(&access(&self.layout, steps));
             add(include_str!("wgsl/task.wgsl"));
             add(&faces(&self.setup.domain, &self.layout));
         }
@@ -119,12 +123,21 @@ impl Recipe<'_> {
             Work::Summary => include_str!("wgsl/summary.wgsl"),
             Work::Impulses => include_str!("wgsl/loads.wgsl"),
         });
-        text
+        // Not an alias: naga takes arrays of an alias for another type than arrays of what it stands for.
+        with_word(&text, "real", if is_wide { "vec4<f32>" } else { "f32" })
     }
 
     /// The names of the models that are on.
-    fn flags(&self, solids: SolidData, listed: bool) -> Vec<&'static str> {
+    fn flags(&self, solids: SolidData, listed: bool, is_wide: bool) -> Vec<&'static str> {
         let mut flags = Vec::new();
+        let [along, across] = self.workgroup();
+        let (vectors, ny) = (self.layout.vectors(), self.layout.cells[1]);
+        if !vectors.is_multiple_of(along) || !ny.is_multiple_of(across) {
+            flags.push("RAGGED");
+        }
+        if is_wide {
+            flags.push("WIDE");
+        }
         let forced = self.setup.body_force.is_some();
         if forced {
             flags.push("FORCE");
@@ -160,6 +173,9 @@ impl Recipe<'_> {
             ("NX", nx),
             ("NY", ny),
             ("NZ", nz),
+            ("WIDTH", self.layout.width),
+            ("VECTORS", self.layout.vectors()),
+            ("ROW_PLACES", self.layout.vectors() * self.layout.width),
             ("WORKGROUP_X", along),
             ("WORKGROUP_Y", across),
             ("STRANDS", self.strands()),
@@ -182,14 +198,20 @@ impl Recipe<'_> {
         for (name, value) in real {
             text += &format!("const {name} = {};\n", literal(value));
         }
-        text + &format!("const G = vec3<f32>({}, {}, {});\n", g[0], g[1], g[2])
+        for (axis, value) in ["X", "Y", "Z"].iter().zip(&g) {
+            text += &format!("const G_{axis} = {value};\n");
+        }
+        text + "const G = vec3<f32>(G_X, G_Y, G_Z);\n"
     }
 
-    /// Cells that `step` gets wrong since they lie at a face that is not periodic.
+    /// Places of the cells that `step` gets wrong: at faces that are not periodic, and at the ends of
+    /// rows that are no multiple of a vector. In order.
     pub(super) fn face_cells(&self) -> Vec<u32> {
         let domain = &self.setup.domain;
-        let is_solid_face =
-            |axis: usize, side: usize| domain.faces().axis(axis)[side] != Face::Periodic;
+        let is_odd = !self.layout.cells[0].is_multiple_of(self.layout.width);
+        let is_solid_face = |axis: usize, side: usize| {
+            domain.faces().axis(axis)[side] != Face::Periodic || (axis == 0 && is_odd)
+        };
         let [nx, ny, nz] = self.layout.cells;
         let mut cells = Vec::new();
         for z in 0..nz {
@@ -210,8 +232,27 @@ impl Recipe<'_> {
                 }
             }
         }
+        for cell in &mut cells {
+            *cell = self.layout.place(*cell);
+        }
+        cells.sort_unstable();
         cells
     }
+}
+
+/// `text` with another word in the place of `word` wherever it stands alone.
+fn with_word(text: &str, word: &str, other: &str) -> String {
+    let is_part = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    let mut done = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(position) = rest.find(word) {
+        let (before, after) = (&rest[..position], &rest[position + word.len()..]);
+        let alone = !is_part(before.chars().last()) && !is_part(after.chars().next());
+        done += before;
+        done += if alone { other } else { word };
+        rest = after;
+    }
+    done + rest
 }
 
 /// The lines of `file` that stand with these flags.

@@ -8,13 +8,14 @@ use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
+use super::layout::Layout;
 use super::numbers::single;
 use super::sphere::{sampled_fraction, solid_fraction};
 
 /// One cell that a solid touches.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
-    cell: u32,
+    place: u32,
     epsilon: f64,
     /// From the solid's centre, or its image, to the centre of the cell.
     arm: Vec3,
@@ -30,11 +31,12 @@ struct Cover {
 /// What the solids cover.
 #[derive(Clone, Debug)]
 pub(super) struct Coverage {
+    layout: Layout,
     covers: Vec<Cover>,
-    /// Per cell the number of its record, counted from 1; 0 for none.
+    /// Per place the number of its record, counted from 1; 0 for none.
     slots: Vec<u32>,
-    /// The cell of each record.
-    cells: Vec<u32>,
+    /// The place of each record.
+    places: Vec<u32>,
     /// The sums of each record.
     sums: Vec<Sums>,
     /// Records in which several solids meet; they come first.
@@ -63,7 +65,7 @@ pub(super) struct Tables {
     /// Two rows for each record in which several solids meet: what `Σ B_s u_s u_s` is above that of the
     /// mean velocity.
     pub(super) excess: Vec<[f32; 4]>,
-    /// For each share, solid by solid: cell, solid, and the bits of `B_s` and the arm.
+    /// For each share, solid by solid: place, solid, and the bits of `B_s` and the arm.
     pub(super) shares: Vec<[u32; 6]>,
     /// First share of each solid, and the number of all.
     pub(super) starts: Vec<u32>,
@@ -72,11 +74,12 @@ pub(super) struct Tables {
 }
 
 impl Coverage {
-    pub(super) fn new(domain: &Domain) -> Self {
+    pub(super) fn new(layout: Layout) -> Self {
         Coverage {
+            layout,
             covers: Vec::new(),
-            slots: vec![0; domain.cell_count()],
-            cells: Vec::new(),
+            slots: vec![0; layout.places as usize],
+            places: Vec::new(),
             sums: Vec::new(),
             many: 0,
         }
@@ -85,29 +88,33 @@ impl Coverage {
     /// Lists again what the solids cover that have moved since, and sums up each cell.
     pub(super) fn update(&mut self, domain: &Domain, phase: &SolidPhase) {
         self.covers.resize_with(phase.solids.len(), Cover::default);
+        let layout = self.layout;
         self.covers.par_iter_mut().zip(&phase.solids).for_each(|(cover, solid)| {
             if cover.centre != Some(solid.centre) {
                 cover.centre = Some(solid.centre);
                 cover.touches.clear();
                 list(domain, solid, phase.coverage, &mut cover.touches);
+                for touch in &mut cover.touches {
+                    touch.place = layout.place(touch.place);
+                }
             }
         });
         self.sum_up(&phase.solids);
     }
 
     fn sum_up(&mut self, solids: &[Solid]) {
-        for &cell in &self.cells {
-            self.slots[cell as usize] = 0;
+        for &place in &self.places {
+            self.slots[place as usize] = 0;
         }
-        self.cells.clear();
+        self.places.clear();
         self.sums.clear();
         for (cover, solid) in self.covers.iter().zip(solids) {
             for touch in &cover.touches {
-                let slot = &mut self.slots[touch.cell as usize];
+                let slot = &mut self.slots[touch.place as usize];
                 if *slot == 0 {
-                    self.cells.push(touch.cell);
+                    self.places.push(touch.place);
                     self.sums.push(Sums::default());
-                    *slot = count(self.cells.len());
+                    *slot = count(self.places.len());
                 }
                 let u = solid.velocity_at(&touch.arm);
                 let (sums, epsilon) = (&mut self.sums[*slot as usize - 1], touch.epsilon);
@@ -124,28 +131,28 @@ impl Coverage {
     /// Renumbers the records so that those of several solids come first.
     fn put_shared_cells_first(&mut self) {
         self.many = 0;
-        for record in 0..self.cells.len() {
+        for record in 0..self.places.len() {
             if self.sums[record].shares > 1 {
-                self.cells.swap(record, self.many);
+                self.places.swap(record, self.many);
                 self.sums.swap(record, self.many);
-                self.slots[self.cells[record] as usize] = count(record + 1);
-                self.slots[self.cells[self.many] as usize] = count(self.many + 1);
+                self.slots[self.places[record] as usize] = count(record + 1);
+                self.slots[self.places[self.many] as usize] = count(self.many + 1);
                 self.many += 1;
             }
         }
     }
 
     /// Total solid fraction of a cell, at most 1.
-    pub(super) fn solid_fraction(&self, cell: usize) -> f64 {
-        match self.slots[cell] {
+    pub(super) fn solid_fraction(&self, cell: u32) -> f64 {
+        match self.slots[self.layout.place(cell) as usize] {
             0 => 0.0,
             slot => self.sums[slot as usize - 1].epsilon.min(1.0),
         }
     }
 
-    /// The cells that solids touch; those in which several meet come first.
-    pub(super) fn cells(&self) -> &[u32] {
-        &self.cells
+    /// The places of the cells that solids touch; those in which several meet come first.
+    pub(super) fn places(&self) -> &[u32] {
+        &self.places
     }
 
     /// The number of cells in which several solids meet.
@@ -153,16 +160,16 @@ impl Coverage {
         self.many
     }
 
-    /// Per cell the number of its record, 0 for none.
+    /// Per place the number of its record, 0 for none.
     pub(super) fn slots(&self) -> &[u32] {
         &self.slots
     }
 
-    /// The weight `B` of each cell.
+    /// The weight `B` at each place.
     pub(super) fn weights(&self, weighting: Weighting, tau: f64) -> Vec<f32> {
         let mut weights = vec![0.0; self.slots.len()];
-        for (&cell, sums) in self.cells.iter().zip(&self.sums) {
-            weights[cell as usize] = single(weight(weighting, sums.epsilon, tau));
+        for (&place, sums) in self.places.iter().zip(&self.sums) {
+            weights[place as usize] = single(weight(weighting, sums.epsilon, tau));
         }
         weights
     }
@@ -189,10 +196,10 @@ impl Coverage {
         tables.starts.push(0);
         for (solid, (cover, motion)) in self.covers.iter().zip(&phase.solids).enumerate() {
             for touch in &cover.touches {
-                let sums = &self.sums[self.slots[touch.cell as usize] as usize - 1];
+                let sums = &self.sums[self.slots[touch.place as usize] as usize - 1];
                 let numbers = row(factor(sums) * touch.epsilon, touch.arm).map(f32::to_bits);
                 let [w, x, y, z] = numbers;
-                tables.shares.push([touch.cell, count(solid), w, x, y, z]);
+                tables.shares.push([touch.place, count(solid), w, x, y, z]);
             }
             tables.starts.push(count(tables.shares.len()));
             tables.motions.push(row(0.0, motion.velocity));
@@ -223,13 +230,13 @@ fn count(number: usize) -> u32 {
     u32::try_from(number).unwrap_or(u32::MAX)
 }
 
-/// The cells that one solid covers.
+/// The cells that one solid covers, by their numbers.
 fn list(domain: &Domain, solid: &Solid, rule: CoverageRule, touches: &mut Vec<Touch>) {
     match &solid.shape {
         Shape::Cells { fractions } => {
             for &(cell, epsilon) in fractions.iter().filter(|(_, epsilon)| *epsilon > 0.0) {
                 let arm = domain.centre(domain.coordinates(cell)) - solid.centre;
-                touches.push(Touch { cell: count(cell), epsilon, arm });
+                touches.push(Touch { place: count(cell), epsilon, arm });
             }
         }
         Shape::Sphere { radius } => list_sphere(domain, &solid.centre, *radius, rule, touches),
@@ -257,7 +264,7 @@ fn list_sphere(
                     CoverageRule::Sampled { n } => sampled_fraction(from_cell, radius, n),
                 };
                 if epsilon > 0.0 {
-                    touches.push(Touch { cell: count(domain.index(inside)), epsilon, arm });
+                    touches.push(Touch { place: count(domain.index(inside)), epsilon, arm });
                 }
             }
         }

@@ -95,7 +95,7 @@ impl Kernel {
                 let moves =
                     phase.solids.iter().any(|solid| solid.velocity != still || solid.spin != still);
                 let tau = setup.collision.tau();
-                Some(Solids::new(gpu, &setup.domain, phase, tau, can_move || moves)?)
+                Some(Solids::new(gpu, &setup.domain, layout, phase, tau, can_move || moves)?)
             }
             _ => None,
         };
@@ -201,9 +201,9 @@ impl Kernel {
     /// Uploads `row(a)`, the values of all cells, for each direction.
     fn start(&mut self, row: impl Fn(usize) -> Vec<f32>) -> Result<(), KernelError> {
         for a in 0..Q {
-            let (binding, start) = self.layout.place(a);
+            let (binding, start) = self.layout.direction(a);
             let buffer = &self.copies[self.current][binding as usize];
-            let row = row(a);
+            let row = self.layout.placed(&row(a));
             self.gpu.queue.write_buffer(buffer, 4 * u64::from(start), bytemuck::cast_slice(&row));
             // Uploads wait in host memory until they are submitted.
             self.gpu.queue.submit([]);
@@ -234,7 +234,7 @@ impl Kernel {
         let mut many = 0;
         if let Some(solids) = &self.solids {
             many = solids.many;
-            let listed = solids.listed_cells().iter();
+            let listed = solids.listed_places().iter();
             if self.face_cells.is_empty() {
                 cells.extend(listed);
             } else {
@@ -244,11 +244,11 @@ impl Kernel {
             let task = [solids.share_count, 1, 1, many];
             self.gpu.queue.write_buffer(&self.tasks.shares, 0, bytemuck::bytes_of(&task));
         }
-        self.list_count = u32::try_from(cells.len()).unwrap_or(u32::MAX);
+        self.list_count = number(cells.len());
         self.list.fill(&self.gpu, &cells)?;
         let listed = [self.list_count, 1, 1, many];
         self.gpu.queue.write_buffer(&self.tasks.listed, 0, bytemuck::bytes_of(&listed));
-        let all = [self.layout.count, 0, u32::from(self.is_collided), many];
+        let all = [self.layout.places, 0, u32::from(self.is_collided), many];
         self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&all));
         Ok(())
     }
@@ -261,7 +261,7 @@ impl Kernel {
             left -= 1;
             self.first_step(with_loads && left == 0)?;
         }
-        let per_submission = (SUBMISSION / u64::from(self.layout.count)).max(1);
+        let per_submission = (SUBMISSION / u64::from(self.layout.places)).max(1);
         while left > 0 {
             let now = left.min(per_submission);
             left -= now;
@@ -275,7 +275,7 @@ impl Kernel {
 
     /// The first step: the populations are there before their collision.
     fn first_step(&mut self, with_loads: bool) -> Result<(), KernelError> {
-        let task = [self.layout.count, 0, 0, self.solids.as_ref().map_or(0, |solids| solids.many)];
+        let task = [self.layout.places, 0, 0, self.solids.as_ref().map_or(0, |solids| solids.many)];
         self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&task));
         if let Some(solids) = &self.solids {
             let task = [solids.share_count, 1, 0, solids.many];
@@ -288,7 +288,7 @@ impl Kernel {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(listed.raw());
             pass.set_bind_group(0, &group, &[]);
-            dispatch(&mut pass, self.layout.count);
+            dispatch(&mut pass, self.layout.places);
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
@@ -318,7 +318,7 @@ impl Kernel {
                 listed.push(self.bind_from(from, pipeline, Some(&self.tasks.listed), None)?);
             }
         }
-        let [nx, ny, nz] = self.layout.cells;
+        let (vectors, [_, ny, nz]) = (self.layout.vectors(), self.layout.cells);
         let [along, across] = self.recipe().workgroup();
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
@@ -327,7 +327,7 @@ impl Kernel {
             for _ in 0..steps {
                 pass.set_pipeline(self.step.raw());
                 pass.set_bind_group(0, &all[parity], &[]);
-                pass.dispatch_workgroups(nx.div_ceil(along), ny.div_ceil(across), nz);
+                pass.dispatch_workgroups(vectors.div_ceil(along), ny.div_ceil(across), nz);
                 if let Some(pipeline) = list_pipeline {
                     pass.set_pipeline(pipeline.raw());
                     pass.set_bind_group(0, &listed[parity], &[]);
@@ -404,12 +404,12 @@ impl Kernel {
         let mut found = Vec::with_capacity(cells.len());
         for slice in cells.chunks(SLICE) {
             let numbers: Vec<u32> =
-                slice.iter().map(|&cell| u32::try_from(cell).unwrap_or(u32::MAX)).collect();
+                slice.iter().map(|&cell| self.layout.place(number(cell))).collect();
             let mut list = Growing::new(&self.gpu, "list of cells")?;
             list.fill(&self.gpu, &numbers)?;
             let bytes = (slice.len() * Q * 4) as u64;
             self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
-            let count = u32::try_from(slice.len()).unwrap_or(u32::MAX);
+            let count = number(slice.len());
             self.look(observe, &list, [count, 1, u32::from(self.is_collided), 0], count)?;
             let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
             let values: &[f32] = bytemuck::cast_slice(&bytes);
@@ -450,15 +450,15 @@ impl Kernel {
         let bytes = u64::from(strands) * 32;
         self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
         let many = self.solids.as_ref().map_or(0, |solids| solids.many);
-        let task = [self.layout.count, 0, u32::from(self.is_collided), many];
+        let task = [self.layout.places, 0, u32::from(self.is_collided), many];
         self.look(summary, &self.list, task, strands)?;
         let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
-        Ok(Summary::of(bytemuck::cast_slice(&bytes), self.layout.count))
+        Ok(Summary::of(bytemuck::cast_slice(&bytes), &self.layout))
     }
 
     /// Total solid fraction of a cell, at most 1.
     pub fn solid_fraction(&self, cell: usize) -> f64 {
-        self.solids.as_ref().map_or(0.0, |solids| solids.coverage.solid_fraction(cell))
+        self.solids.as_ref().map_or(0.0, |solids| solids.coverage.solid_fraction(number(cell)))
     }
 
     /// Whether the state on the device is that after a collision, as from the first step on.
@@ -469,11 +469,13 @@ impl Kernel {
     /// Hands out the populations as the device holds them: for each direction the bits of all cells.
     pub fn save(&self, mut row: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         for a in 0..Q {
-            let (binding, start) = self.layout.place(a);
-            let bytes = u64::from(self.layout.count) * 4;
+            let (binding, start) = self.layout.direction(a);
+            let bytes = u64::from(self.layout.places) * 4;
             let buffer = &self.copies[self.current][binding as usize];
             let read = self.gpu.read_from(buffer, u64::from(start) * 4, bytes);
-            row(&read.map_err(io::Error::other)?)?;
+            let placed = read.map_err(io::Error::other)?;
+            let placed: &[u32] = bytemuck::cast_slice(&placed);
+            row(bytemuck::cast_slice(&self.layout.gathered(placed)))?;
         }
         Ok(())
     }
@@ -485,12 +487,17 @@ impl Kernel {
         loads: &[Load],
         mut row: impl FnMut(&mut [u8]) -> io::Result<()>,
     ) -> io::Result<()> {
-        let mut bytes = vec![0; self.layout.count as usize * 4];
+        let mut values = vec![0_u32; self.setup.domain.cell_count()];
         for a in 0..Q {
-            row(&mut bytes)?;
-            let (binding, start) = self.layout.place(a);
+            row(bytemuck::cast_slice_mut(&mut values))?;
+            let placed = self.layout.placed(&values);
+            let (binding, start) = self.layout.direction(a);
             let buffer = &self.copies[self.current][binding as usize];
-            self.gpu.queue.write_buffer(buffer, 4 * u64::from(start), &bytes);
+            self.gpu.queue.write_buffer(
+                buffer,
+                4 * u64::from(start),
+                bytemuck::cast_slice(&placed),
+            );
             // Uploads wait in host memory until they are submitted.
             self.gpu.queue.submit([]);
         }
@@ -561,6 +568,11 @@ impl Kernel {
     }
 }
 
+/// A number of cells, of which there are fewer than 2^32.
+fn number(of: usize) -> u32 {
+    u32::try_from(of).unwrap_or(u32::MAX)
+}
+
 /// One invocation for each of `count` things, in workgroups of 64.
 fn dispatch(pass: &mut wgpu::ComputePass<'_>, count: u32) {
     if count > 0 {
@@ -586,9 +598,9 @@ pub struct Summary {
 }
 
 impl Summary {
-    fn of(parts: &[[u32; 8]], count: u32) -> Self {
+    fn of(parts: &[[u32; 8]], layout: &Layout) -> Self {
         let real = |bits: u32| f64::from(f32::from_bits(bits));
-        let n = f64::from(count);
+        let n = layout.cells.iter().map(|&n| f64::from(n)).product::<f64>();
         let sum = |column: usize| parts.iter().map(|part| real(part[column])).sum::<f64>();
         let most = |column: usize| parts.iter().map(|part| real(part[column])).fold(0.0, f64::max);
         let broken = parts.iter().map(|part| part[6]).min().filter(|&cell| cell != u32::MAX);
@@ -597,7 +609,7 @@ impl Summary {
             mass_flux: Vec3::new(sum(1), sum(2), sum(3)) / n,
             bare_speed: most(4).sqrt(),
             speed: most(5).sqrt(),
-            broken: broken.map(|cell| cell as usize),
+            broken: broken.and_then(|place| layout.cell(place)).map(|cell| cell as usize),
         }
     }
 }

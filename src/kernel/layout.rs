@@ -1,4 +1,9 @@
 //! Where the populations lie: all cells of one direction in a row, so many directions to a binding.
+//!
+//! On a software adapter four cells are worked on at once, as vectors of four (its loads cost as much for
+//! four values as for one). So that a vector's neighbours along x are a vector too, it holds cells a
+//! quarter of the row apart: with `n = ceil(nx/4)`, the vector `q` of a row holds `q, q + n, q + 2n,
+//! q + 3n`. Where `nx` is no multiple of four the last quarter is filled up with places that are no cells.
 
 use psmrt_reference::domain::Domain;
 
@@ -14,9 +19,8 @@ const DIRECTIONS: u32 = 19;
 /// Storage bindings of a shader besides the populations, at most.
 const OTHER_BINDINGS: u32 = 4;
 
-/// Cells of 4 bytes by which the rows of two directions are apart, modulo a page of 4096 bytes: rows
-/// that start at the same place of a page compete for the same lines of a cache, which costs a third of
-/// the speed in boxes of 128³ cells on a processor.
+/// Values by which the rows of two directions are apart, modulo a page of 4096 bytes: rows that start at
+/// the same place of a page compete for the same lines of a cache.
 const ROW_SKEW: u64 = 7 * 16;
 const PAGE: u64 = 1024;
 
@@ -25,19 +29,23 @@ const PAGE: u64 = 1024;
 pub(super) struct Layout {
     /// Cells along x, y, z.
     pub(super) cells: [u32; 3],
-    /// Number of cells.
-    pub(super) count: u32,
+    /// Cells that are worked on at once: 1 or 4.
+    pub(super) width: u32,
+    /// Places for cells, those that are none included.
+    pub(super) places: u32,
     /// Values from one direction to the next.
-    pub(super) stride: u32,
+    stride: u32,
     /// Directions in one binding.
-    pub(super) per_binding: u32,
+    per_binding: u32,
 }
 
 impl Layout {
     /// The layout for a box on an adapter. Errors if the adapter cannot hold it.
     pub(super) fn new(domain: &Domain, adapter: &AdapterFacts) -> Result<Self, KernelError> {
-        let count = domain.cell_count() as u64;
-        let stride = padded(count);
+        let [nx, ny, nz] = domain.cells().map(|n| n as u64);
+        let width = if adapter.is_software() { 4 } else { 1 };
+        let places = nx.div_ceil(width) * width * ny * nz;
+        let stride = padded(places);
         let largest = adapter.max_binding_bytes.min(adapter.max_buffer_bytes);
         let per_binding = (largest / (stride * WORD)).min(DIRECTIONS.into());
         let too_large = |what, needed, available| KernelError::TooLarge {
@@ -49,15 +57,14 @@ impl Layout {
         if per_binding == 0 {
             return Err(too_large("one direction of the populations", stride * WORD, largest));
         }
-        // `Domain` holds fewer than 2^32 - 1 cells, and a binding fewer than 2^32 bytes.
         let narrow = |value: u64| {
             u32::try_from(value)
                 .map_err(|_| too_large("numbering the cells", value * WORD, u64::from(u32::MAX)))
         };
-        let [nx, ny, nz] = domain.cells().map(|n| n as u64);
         let layout = Layout {
             cells: [narrow(nx)?, narrow(ny)?, narrow(nz)?],
-            count: narrow(count)?,
+            width: narrow(width)?,
+            places: narrow(places)?,
             stride: narrow(stride)?,
             per_binding: narrow(per_binding)?,
         };
@@ -67,6 +74,44 @@ impl Layout {
             return Err(KernelError::TooManyBindings { needed, available, adapter });
         }
         Ok(layout)
+    }
+
+    /// Vectors in a row of cells along x.
+    pub(super) fn vectors(&self) -> u32 {
+        self.cells[0].div_ceil(self.width)
+    }
+
+    /// The place of cell number `cell`.
+    pub(super) fn place(&self, cell: u32) -> u32 {
+        let nx = self.cells[0];
+        let (x, row, n) = (cell % nx, cell / nx, self.vectors());
+        row * n * self.width + x % n * self.width + x / n
+    }
+
+    /// The number of the cell at a place; `None` if there is none.
+    pub(super) fn cell(&self, place: u32) -> Option<u32> {
+        let n = self.vectors();
+        let (row, along) = (place / (n * self.width), place % (n * self.width));
+        let x = along / self.width + along % self.width * n;
+        (x < self.cells[0]).then(|| row * self.cells[0] + x)
+    }
+
+    /// Values of all cells in the order of their numbers, put at their places.
+    pub(super) fn placed<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+        if self.width == 1 {
+            return values.to_vec();
+        }
+        let mut placed = vec![T::default(); self.places as usize];
+        for (cell, value) in (0..).zip(values) {
+            placed[self.place(cell) as usize] = *value;
+        }
+        placed
+    }
+
+    /// The reverse of [`Self::placed`].
+    pub(super) fn gathered<T: Copy + Default>(&self, placed: &[T]) -> Vec<T> {
+        let [nx, ny, nz] = self.cells;
+        (0..nx * ny * nz).map(|cell| placed[self.place(cell) as usize]).collect()
     }
 
     /// Bindings that one copy of the populations takes.
@@ -87,17 +132,17 @@ impl Layout {
     }
 
     /// The binding of direction `a` and where it starts there, in values.
-    pub(super) fn place(&self, a: usize) -> (u32, u32) {
+    pub(super) fn direction(&self, a: usize) -> (u32, u32) {
         let a = u32::try_from(a).unwrap_or(DIRECTIONS);
         (a / self.per_binding, a % self.per_binding * self.stride)
     }
 }
 
-/// The number of values for `count` cells that keeps the rows apart in a cache.
+/// The number of values for `count` places that keeps the rows apart in a cache.
 fn padded(count: u64) -> u64 {
+    let whole = count.next_multiple_of(16);
     if count < PAGE {
-        return count.next_multiple_of(16);
+        return whole;
     }
-    let over = count.next_multiple_of(16) % PAGE;
-    count.next_multiple_of(16) + (ROW_SKEW + PAGE - over) % PAGE
+    whole + (ROW_SKEW + PAGE - whole % PAGE) % PAGE
 }

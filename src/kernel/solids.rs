@@ -8,6 +8,7 @@ use super::compose::SolidData;
 use super::coverage::Coverage;
 use super::device::Gpu;
 use super::error::KernelError;
+use super::layout::Layout;
 
 /// Above this share of covered cells the solid part is worked out in every cell; below it, only in the
 /// listed ones, a second time.
@@ -40,6 +41,7 @@ impl Solids {
     pub(super) fn new(
         gpu: &Gpu,
         domain: &Domain,
+        layout: Layout,
         phase: &SolidPhase,
         tau: f64,
         can_move: bool,
@@ -47,7 +49,7 @@ impl Solids {
         let buffer = |label| Growing::new(gpu, label);
         let mut solids = Solids {
             data: if can_move { SolidData::Moving } else { SolidData::Fixed },
-            coverage: Coverage::new(domain),
+            coverage: Coverage::new(layout),
             in_every_cell: false,
             per_cell: buffer("solid weights of cells")?,
             records: buffer("records of covered cells")?,
@@ -63,7 +65,7 @@ impl Solids {
         };
         solids.list(domain, phase);
         solids.upload(gpu, phase, tau)?;
-        let covered = solids.coverage.cells().len() as f64 / domain.cell_count() as f64;
+        let covered = solids.coverage.places().len() as f64 / domain.cell_count() as f64;
         solids.in_every_cell = covered > DENSE;
         Ok(solids)
     }
@@ -103,11 +105,11 @@ impl Solids {
         Ok(())
     }
 
-    /// The cells that must be listed since the step of all cells does not do them right.
-    pub(super) fn listed_cells(&self) -> &[u32] {
+    /// The places that must be listed since the step of all cells does not do them right.
+    pub(super) fn listed_places(&self) -> &[u32] {
         match (self.in_every_cell, self.data) {
-            (false, _) => self.coverage.cells(),
-            (true, SolidData::Moving) => &self.coverage.cells()[..self.coverage.many()],
+            (false, _) => self.coverage.places(),
+            (true, SolidData::Moving) => &self.coverage.places()[..self.coverage.many()],
             (true, _) => &[],
         }
     }

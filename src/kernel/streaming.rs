@@ -16,24 +16,14 @@ use psmrt_reference::domain::{Domain, Face};
 use super::layout::Layout;
 use super::numbers::literal;
 
-/// WGSL functions `own`, `wrapped` and `keep`; `keep` only where a shader writes.
+/// The populations of a shader that works on one cell at a time: WGSL functions `own` and `wrapped`, and
+/// `keep` if it writes.
 pub(super) fn access(layout: &Layout, writes: bool) -> String {
-    let mut text = String::new();
-    for binding in 0..layout.bindings() {
-        text += &format!(
-            "@group(0) @binding({binding}) var<storage, read> old_{binding}: array<f32>;\n"
-        );
-        if writes {
-            let number = 20 + binding;
-            text += &format!(
-                "@group(0) @binding({number}) var<storage, read_write> new_{binding}: array<f32>;\n"
-            );
-        }
-    }
-    text += "\n// The cell's own populations.\nfn own(cell: u32) -> array<f32, 19> {\n";
+    let mut text = bindings(layout, "f32", writes);
+    text += "\n// The populations at a place.\nfn own(place: u32) -> array<f32, 19> {\n";
     text += "    var h: array<f32, 19>;\n";
     for a in 0..Q {
-        text += &format!("    h[{a}] = {};\n", old(layout, a, "cell"));
+        text += &format!("    h[{a}] = {};\n", old(layout, a, "place"));
     }
     text += "    return h;\n}\n\n// f_a(x) = f*_a(x - c_a), all faces taken for periodic.\n";
     text += "fn wrapped(x: u32, y: u32, z: u32) -> array<f32, 19> {\n    var h: array<f32, 19>;\n";
@@ -44,14 +34,63 @@ pub(super) fn access(layout: &Layout, writes: bool) -> String {
     }
     text += "    return h;\n}\n";
     if writes {
-        text += "\nfn keep(cell: u32, post: array<f32, 19>) {\n";
-        for a in 0..Q {
-            let (binding, start) = layout.place(a);
-            text += &format!("    new_{binding}[{start}u + cell] = post[{a}];\n");
-        }
-        text += "}\n";
+        text += &keep(layout, 1);
     }
     text
+}
+
+/// The populations of a shader that works on a vector of cells at once: WGSL functions `wrapped` and
+/// `keep`.
+pub(super) fn vector_access(layout: &Layout) -> String {
+    let mut text = bindings(layout, "real", true);
+    text += "\n// f_a(x) = f*_a(x - c_a), all faces taken for periodic.\n";
+    text +=
+        "fn wrapped(x: u32, y: u32, z: u32) -> array<real, 19> {\n    var h: array<real, 19>;\n";
+    text += VECTOR_NEIGHBOURS;
+    for a in 0..Q {
+        let from = std::array::from_fn(|axis| place(axis, C[a][axis]));
+        let (binding, start) = layout.direction(a);
+        let start = start / layout.width;
+        text += &format!("    h[{a}] = old_{binding}[{start}u + {}];\n", sum(&from));
+    }
+    if layout.width == 4 {
+        // What comes from beyond an end of the row comes from the neighbour quarter of the row.
+        for (c, condition, turned) in [(1, "x == 0u", "wxyz"), (-1, "x == VECTORS - 1u", "yzwx")] {
+            text += &format!("    if ({condition}) {{\n");
+            for a in (0..Q).filter(|&a| C[a][0] == c) {
+                text += &format!("        h[{a}] = h[{a}].{turned};\n");
+            }
+            text += "    }\n";
+        }
+    }
+    text + "    return h;\n}\n" + &keep(layout, layout.width)
+}
+
+/// The populations' bindings, as arrays of `element`.
+fn bindings(layout: &Layout, element: &str, writes: bool) -> String {
+    let mut text = String::new();
+    for binding in 0..layout.bindings() {
+        text += &format!(
+            "@group(0) @binding({binding}) var<storage, read> old_{binding}: array<{element}>;\n"
+        );
+        if writes {
+            text += &format!(
+                "@group(0) @binding({}) var<storage, read_write> new_{binding}: array<{element}>;\n",
+                20 + binding
+            );
+        }
+    }
+    text
+}
+
+/// WGSL function `keep`: writes the populations of a place, or of the vector of that number.
+fn keep(layout: &Layout, width: u32) -> String {
+    let mut text = String::from("\nfn keep(place: u32, post: array<real, 19>) {\n");
+    for a in 0..Q {
+        let (binding, start) = layout.direction(a);
+        text += &format!("    new_{binding}[{}u + place] = post[{a}];\n", start / width);
+    }
+    text + "}\n"
 }
 
 /// WGSL function `entering`: the same as `wrapped`, with the faces.
@@ -81,9 +120,9 @@ pub(super) fn faces(domain: &Domain, layout: &Layout) -> String {
     text += "    var h = wrapped(x, y, z);\n";
     if !rules.is_empty() {
         text += NEIGHBOURS;
-        text += "    let cell = x0 + y0 + z0;\n";
+        text += "    let here_place = x0 + y0 + z0;\n";
         if needs_own {
-            text += "    let here = own(cell);\n    let drho = sum(here);\n";
+            text += "    let here = own(here_place);\n    let drho = sum(here);\n";
             text += "    let rho = 1.0 + drho;\n    let u = momentum(here) / rho;\n";
             text += "    let u2 = dot(u, u);\n";
         }
@@ -92,23 +131,35 @@ pub(super) fn faces(domain: &Domain, layout: &Layout) -> String {
     text + "    return h;\n}\n"
 }
 
-/// Parts of the numbers of a cell and its neighbours, wrapped round the box.
-const NEIGHBOURS: &str = "    let x0 = x;
-    let y0 = NX * y;
-    let z0 = NX * NY * z;
-    let xm = select(x - 1u, NX - 1u, x == 0u);
-    let xp = select(x + 1u, 0u, x == NX - 1u);
-    let ym = NX * select(y - 1u, NY - 1u, y == 0u);
-    let yp = NX * select(y + 1u, 0u, y == NY - 1u);
-    let zm = NX * NY * select(z - 1u, NZ - 1u, z == 0u);
-    let zp = NX * NY * select(z + 1u, 0u, z == NZ - 1u);
+/// Parts of the places of a cell and its neighbours, wrapped round the box.
+const NEIGHBOURS: &str = "    let x0 = along(x);
+    let y0 = ROW_PLACES * y;
+    let z0 = ROW_PLACES * NY * z;
+    let xm = along(select(x - 1u, NX - 1u, x == 0u));
+    let xp = along(select(x + 1u, 0u, x == NX - 1u));
+    let ym = ROW_PLACES * select(y - 1u, NY - 1u, y == 0u);
+    let yp = ROW_PLACES * select(y + 1u, 0u, y == NY - 1u);
+    let zm = ROW_PLACES * NY * select(z - 1u, NZ - 1u, z == 0u);
+    let zp = ROW_PLACES * NY * select(z + 1u, 0u, z == NZ - 1u);
+";
+
+/// The same for the numbers of vectors; x is that in the row.
+const VECTOR_NEIGHBOURS: &str = "    let x0 = x;
+    let y0 = VECTORS * y;
+    let z0 = VECTORS * NY * z;
+    let xm = select(x - 1u, VECTORS - 1u, x == 0u);
+    let xp = select(x + 1u, 0u, x == VECTORS - 1u);
+    let ym = VECTORS * select(y - 1u, NY - 1u, y == 0u);
+    let yp = VECTORS * select(y + 1u, 0u, y == NY - 1u);
+    let zm = VECTORS * NY * select(z - 1u, NZ - 1u, z == 0u);
+    let zp = VECTORS * NY * select(z + 1u, 0u, z == NZ - 1u);
 ";
 
 /// Whether a cell lies at the low and the high face of each axis.
 const AT_FACE: [[&str; 2]; 3] =
     [["x == 0u", "x == NX - 1u"], ["y == 0u", "y == NY - 1u"], ["z == 0u", "z == NZ - 1u"]];
 
-/// The part of a cell's number along an axis, one cell against the component `c` of a direction.
+/// The part of a place along an axis, one cell against the component `c` of a direction.
 fn place(axis: usize, c: i32) -> &'static str {
     let names = [["x0", "xm", "xp"], ["y0", "ym", "yp"], ["z0", "zm", "zp"]][axis];
     match c {
@@ -124,7 +175,7 @@ fn sum(parts: &[&str; 3]) -> String {
 
 /// Population `a` of a cell.
 fn old(layout: &Layout, a: usize, cell: &str) -> String {
-    let (binding, start) = layout.place(a);
+    let (binding, start) = layout.direction(a);
     format!("old_{binding}[{start}u + {cell}]")
 }
 
@@ -175,7 +226,7 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
     if is_periodic {
         return None;
     }
-    let back = old(layout, OPPOSITE[a], "cell");
+    let back = old(layout, OPPOSITE[a], "here_place");
     Some(match (wall, pressure) {
         (Some(u), _) => {
             // f_a = f*_-a + 6 w_a ρ (c_a·u_w)

@@ -4,15 +4,16 @@
 // h are the populations less their weights, h_a = f_a - w_a, so that f32 keeps the digits of what
 // moves: ρ = 1 + Σ h_a, and all other moments of the weights but e (-11) and eps (3) are zero.
 //
-// Opposite directions go together: s their sum, d their difference.
+// Opposite directions go together: s their sum, d their difference. A `real` is the value of one cell, or
+// of four cells that are worked on at once.
 
 // f* = f + M⁻¹ g,  g = (1 - B) [Ŝ (m_eq - m) + (I - Ŝ/2) F] + Σ_s B_s Λ_s
 fn collided(
-    h: array<f32, 19>,
+    h: array<real, 19>,
 //#if SOLIDS
     solid: SolidPart,
 //#end
-) -> array<f32, 19> {
+) -> array<real, 19> {
     let s1 = h[1] + h[2];
     let d1 = h[1] - h[2];
     let s3 = h[3] + h[4];
@@ -41,14 +42,25 @@ fn collided(
     let drho = h[0] + faces + edges;
     let rho = 1.0 + drho;
     // What the edges carry along each axis, from the one plane and from the other.
-    let first = vec3<f32>(d7 - d8, d15 - d16, d11 + d12);
-    let second = vec3<f32>(d11 - d12, d7 + d8, d15 + d16);
-    let straight = vec3<f32>(d1, d3, d5);
-    let bent = first + second;
+    let first_x = d7 - d8;
+    let first_y = d15 - d16;
+    let first_z = d11 + d12;
+    let second_x = d11 - d12;
+    let second_y = d7 + d8;
+    let second_z = d15 + d16;
+    let bent_x = first_x + second_x;
+    let bent_y = first_y + second_y;
+    let bent_z = first_z + second_z;
     // j = Σ c h,  q = Σ (5c² - 9) c h,  m_x = Σ (c_y² - c_z²) c_x h and its cyclic images
-    let j = straight + bent;
-    let q = bent - 4.0 * straight;
-    let m = first - second;
+    let j_x = d1 + bent_x;
+    let j_y = d3 + bent_y;
+    let j_z = d5 + bent_z;
+    let q_x = bent_x - 4.0 * d1;
+    let q_y = bent_y - 4.0 * d3;
+    let q_z = bent_z - 4.0 * d5;
+    let m_x = first_x - second_x;
+    let m_y = first_y - second_y;
+    let m_z = first_z - second_z;
     // e = Σ (19c² - 30) h,  eps = Σ (21c⁴ - 53c² + 24)/2 h
     let e = 8.0 * edges - 11.0 * faces - 30.0 * h[0];
     let eps = edges - 4.0 * faces + 12.0 * h[0];
@@ -61,60 +73,75 @@ fn collided(
     let pixx = edge_xx - 2.0 * face_xx;
     let pww = face_ww + edge_ww;
     let piww = edge_ww - 2.0 * face_ww;
-    // p_xy, p_yz, p_xz
-    let shear = vec3<f32>(s7 - s8, s15 - s16, s11 - s12);
+    let pxy = s7 - s8;
+    let pyz = s15 - s16;
+    let pxz = s11 - s12;
 
     // u = (j + G/2)/ρ
     let over_rho = 1.0 / rho;
 //#if FORCE
-    let mass_flux = j + 0.5 * G;
+    let k_x = j_x + 0.5 * G_X;
+    let k_y = j_y + 0.5 * G_Y;
+    let k_z = j_z + 0.5 * G_Z;
 //#else
-    let mass_flux = j;
+    let k_x = j_x;
+    let k_y = j_y;
+    let k_z = j_z;
 //#end
-    let u = mass_flux * over_rho;
-    // ρ u_i u_i and ρ u_i u_j (xy, yz, xz)
-    let n = mass_flux * u;
-    let t = mass_flux.xyx * u.yzz;
-    let kinetic = n.x + n.y + n.z;
-    let n_xx = 2.0 * n.x - n.y - n.z;
-    let n_ww = n.y - n.z;
+    let u_x = k_x * over_rho;
+    let u_y = k_y * over_rho;
+    let u_z = k_z * over_rho;
+    // ρ u_i u_i and ρ u_i u_j
+    let n_x = k_x * u_x;
+    let n_y = k_y * u_y;
+    let n_z = k_z * u_z;
+    let t_xy = k_x * u_y;
+    let t_yz = k_y * u_z;
+    let t_xz = k_x * u_z;
+    let kinetic = n_x + n_y + n_z;
+    let n_xx = 2.0 * n_x - n_y - n_z;
+    let n_ww = n_y - n_z;
 
     // m_eq - m:  e_eq = -11 ρ + 19 ρu²,  eps_eq = 3 ρ - 11/2 ρu²,  q_eq = -2/3 ρu,
-    // 3p_xx_eq = ρ (2u_x² - u_y² - u_z²),  pi_eq = -1/2 p_eq
-    let to_e = 19.0 * kinetic - 11.0 * drho - e;
-    let to_eps = 3.0 * drho - 5.5 * kinetic - eps;
-    let to_q = -TWO_THIRDS * mass_flux - q;
-    let to_pxx = n_xx - pxx;
-    let to_pixx = -0.5 * n_xx - pixx;
-    let to_pww = n_ww - pww;
-    let to_piww = -0.5 * n_ww - piww;
-    let to_shear = t - shear;
-
-    // Ŝ (m_eq - m)
-    var g_e = S_E * to_e;
-    var g_eps = S_EPS * to_eps;
-    var g_q = S_Q * to_q;
-    var g_m = -S_M * m;
-    var g_pxx = S_NU * to_pxx;
-    var g_pixx = S_PI * to_pixx;
-    var g_pww = S_NU * to_pww;
-    var g_piww = S_PI * to_piww;
-    var g_shear = S_NU * to_shear;
+    // 3p_xx_eq = ρ (2u_x² - u_y² - u_z²),  pi_eq = -1/2 p_eq;  with Ŝ before it
+    var g_e = S_E * (19.0 * kinetic - 11.0 * drho - e);
+    var g_eps = S_EPS * (3.0 * drho - 5.5 * kinetic - eps);
+    var gq_x = -S_Q * (TWO_THIRDS * k_x + q_x);
+    var gq_y = -S_Q * (TWO_THIRDS * k_y + q_y);
+    var gq_z = -S_Q * (TWO_THIRDS * k_z + q_z);
+    var gm_x = -S_M * m_x;
+    var gm_y = -S_M * m_y;
+    var gm_z = -S_M * m_z;
+    var g_pxx = S_NU * (n_xx - pxx);
+    var g_pixx = -S_PI * (0.5 * n_xx + pixx);
+    var g_pww = S_NU * (n_ww - pww);
+    var g_piww = -S_PI * (0.5 * n_ww + piww);
+    var g_xy = S_NU * (t_xy - pxy);
+    var g_yz = S_NU * (t_yz - pyz);
+    var g_xz = S_NU * (t_xz - pxz);
 //#if FORCE
     // + (I - Ŝ/2) F,  F the derivative of m_eq along ρu → G
-    let ug = u * G;
-    let power = ug.x + ug.y + ug.z;
-    let f_xx = 2.0 * (2.0 * ug.x - ug.y - ug.z);
-    let f_ww = 2.0 * (ug.y - ug.z);
+    let w_x = u_x * G_X;
+    let w_y = u_y * G_Y;
+    let w_z = u_z * G_Z;
+    let power = w_x + w_y + w_z;
+    let f_xx = 2.0 * (2.0 * w_x - w_y - w_z);
+    let f_ww = 2.0 * (w_y - w_z);
     g_e += (1.0 - 0.5 * S_E) * 38.0 * power;
     g_eps -= (1.0 - 0.5 * S_EPS) * 11.0 * power;
-    g_q -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * G;
+    gq_x -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * G_X;
+    gq_y -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * G_Y;
+    gq_z -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * G_Z;
     g_pxx += (1.0 - 0.5 * S_NU) * f_xx;
     g_pixx -= (1.0 - 0.5 * S_PI) * 0.5 * f_xx;
     g_pww += (1.0 - 0.5 * S_NU) * f_ww;
     g_piww -= (1.0 - 0.5 * S_PI) * 0.5 * f_ww;
-    g_shear += (1.0 - 0.5 * S_NU) * (u.xyx * G.yzz + u.yzz * G.xyx);
-    var g_j = G;
+    g_xy += (1.0 - 0.5 * S_NU) * (u_x * G_Y + u_y * G_X);
+    g_yz += (1.0 - 0.5 * S_NU) * (u_y * G_Z + u_z * G_Y);
+    g_xz += (1.0 - 0.5 * S_NU) * (u_x * G_Z + u_z * G_X);
+    var gj_x = real(G_X);
+    var gj_y = real(G_Y);
+    var gj_z = real(G_Z);
 //#end
 
 //#if SOLIDS
@@ -122,51 +149,53 @@ fn collided(
     let b = solid.weight;
     let open = 1.0 - b;
 //#if FORCE
-    let bare_n = j * j * over_rho;
-    let bare_t = j.xyx * j.yzz * over_rho;
-    let bare_kinetic = bare_n.x + bare_n.y + bare_n.z;
-    let bare_xx = 2.0 * bare_n.x - bare_n.y - bare_n.z;
-    let bare_ww = bare_n.y - bare_n.z;
-    g_j *= open;
+    let bare_x = j_x * j_x * over_rho;
+    let bare_y = j_y * j_y * over_rho;
+    let bare_z = j_z * j_z * over_rho;
+    let bare_xy = j_x * j_y * over_rho;
+    let bare_yz = j_y * j_z * over_rho;
+    let bare_xz = j_x * j_z * over_rho;
+    let bare_kinetic = bare_x + bare_y + bare_z;
+    let bare_xx = 2.0 * bare_x - bare_y - bare_z;
+    let bare_ww = bare_y - bare_z;
+    gj_x *= open;
+    gj_y *= open;
+    gj_z *= open;
 //#else
-    let bare_t = t;
+    let bare_xy = t_xy;
+    let bare_yz = t_yz;
+    let bare_xz = t_xz;
     let bare_kinetic = kinetic;
     let bare_xx = n_xx;
     let bare_ww = n_ww;
-    var g_j = vec3<f32>(0.0);
+    var gj_x = real(0.0);
+    var gj_y = real(0.0);
+    var gj_z = real(0.0);
 //#end
     // Even moments of both operators: B [m_eq(u_p) - m_eq(u)]
 //#if MOVING
-    let p_n = rho * solid.square;
-    let p_t = rho * solid.mixed;
-    let p_u = rho * solid.velocity;
-    let gain_kinetic = p_n.x + p_n.y + p_n.z - b * bare_kinetic;
-    let gain_xx = 2.0 * p_n.x - p_n.y - p_n.z - b * bare_xx;
-    let gain_ww = p_n.y - p_n.z - b * bare_ww;
-    let gain_t = p_t - b * bare_t;
-    let push = p_u - b * j;
+    let p_x = rho * solid.square_x;
+    let p_y = rho * solid.square_y;
+    let p_z = rho * solid.square_z;
+    let gain_kinetic = p_x + p_y + p_z - b * bare_kinetic;
+    let gain_xx = 2.0 * p_x - p_y - p_z - b * bare_xx;
+    let gain_ww = p_y - p_z - b * bare_ww;
+    let gain_xy = rho * solid.mixed_xy - b * bare_xy;
+    let gain_yz = rho * solid.mixed_yz - b * bare_yz;
+    let gain_xz = rho * solid.mixed_xz - b * bare_xz;
+    let push_x = rho * solid.velocity_x - b * j_x;
+    let push_y = rho * solid.velocity_y - b * j_y;
+    let push_z = rho * solid.velocity_z - b * j_z;
 //#else
     let gain_kinetic = -b * bare_kinetic;
     let gain_xx = -b * bare_xx;
     let gain_ww = -b * bare_ww;
-    let gain_t = -b * bare_t;
-    let push = -b * j;
-//#end
-//#if SUPERPOSITION
-    // Λ = m_eq(u_p) - m_eq(u) + Ŝ [m_eq(u) - m]
-    let keep_e = b * S_E * (19.0 * bare_kinetic - 11.0 * drho - e);
-    let keep_eps = b * S_EPS * (3.0 * drho - 5.5 * bare_kinetic - eps);
-    let keep_pxx = b * S_NU * (bare_xx - pxx);
-    let keep_pixx = b * S_PI * (-0.5 * bare_xx - pixx);
-    let keep_pww = b * S_NU * (bare_ww - pww);
-    let keep_piww = b * S_PI * (-0.5 * bare_ww - piww);
-    let keep_shear = b * S_NU * (bare_t - shear);
-    let odd_q = -TWO_THIRDS * push - b * S_Q * (q + TWO_THIRDS * j);
-    let odd_m = -b * S_M * m;
-//#else
-    // Odd moments: B [m_eq(u) + m_eq(u_p) - 2 m]; bounce-back turns their signs
-    let odd_q = -TWO_THIRDS * (push + 2.0 * b * j) - 2.0 * b * q;
-    let odd_m = -2.0 * b * m;
+    let gain_xy = -b * bare_xy;
+    let gain_yz = -b * bare_yz;
+    let gain_xz = -b * bare_xz;
+    let push_x = -b * j_x;
+    let push_y = -b * j_y;
+    let push_z = -b * j_z;
 //#end
     g_e = open * g_e + 19.0 * gain_kinetic;
     g_eps = open * g_eps - 5.5 * gain_kinetic;
@@ -174,20 +203,39 @@ fn collided(
     g_pixx = open * g_pixx - 0.5 * gain_xx;
     g_pww = open * g_pww + gain_ww;
     g_piww = open * g_piww - 0.5 * gain_ww;
-    g_shear = open * g_shear + gain_t;
-    g_q = open * g_q + odd_q;
-    g_m = open * g_m + odd_m;
-    // Momentum, of both operators: B (ρ u_p - j), less what the solid receives
-    g_j += push;
+    g_xy = open * g_xy + gain_xy;
+    g_yz = open * g_yz + gain_yz;
+    g_xz = open * g_xz + gain_xz;
 //#if SUPERPOSITION
-    g_e += keep_e;
-    g_eps += keep_eps;
-    g_pxx += keep_pxx;
-    g_pixx += keep_pixx;
-    g_pww += keep_pww;
-    g_piww += keep_piww;
-    g_shear += keep_shear;
+    // Λ = m_eq(u_p) - m_eq(u) + Ŝ [m_eq(u) - m]
+    g_e += b * S_E * (19.0 * bare_kinetic - 11.0 * drho - e);
+    g_eps += b * S_EPS * (3.0 * drho - 5.5 * bare_kinetic - eps);
+    g_pxx += b * S_NU * (bare_xx - pxx);
+    g_pixx -= b * S_PI * (0.5 * bare_xx + pixx);
+    g_pww += b * S_NU * (bare_ww - pww);
+    g_piww -= b * S_PI * (0.5 * bare_ww + piww);
+    g_xy += b * S_NU * (bare_xy - pxy);
+    g_yz += b * S_NU * (bare_yz - pyz);
+    g_xz += b * S_NU * (bare_xz - pxz);
+    gq_x = open * gq_x - TWO_THIRDS * push_x - b * S_Q * (q_x + TWO_THIRDS * j_x);
+    gq_y = open * gq_y - TWO_THIRDS * push_y - b * S_Q * (q_y + TWO_THIRDS * j_y);
+    gq_z = open * gq_z - TWO_THIRDS * push_z - b * S_Q * (q_z + TWO_THIRDS * j_z);
+    gm_x = open * gm_x - b * S_M * m_x;
+    gm_y = open * gm_y - b * S_M * m_y;
+    gm_z = open * gm_z - b * S_M * m_z;
+//#else
+    // Odd moments: B [m_eq(u) + m_eq(u_p) - 2 m]; bounce-back turns their signs
+    gq_x = open * gq_x - TWO_THIRDS * (push_x + 2.0 * b * j_x) - 2.0 * b * q_x;
+    gq_y = open * gq_y - TWO_THIRDS * (push_y + 2.0 * b * j_y) - 2.0 * b * q_y;
+    gq_z = open * gq_z - TWO_THIRDS * (push_z + 2.0 * b * j_z) - 2.0 * b * q_z;
+    gm_x = open * gm_x - 2.0 * b * m_x;
+    gm_y = open * gm_y - 2.0 * b * m_y;
+    gm_z = open * gm_z - 2.0 * b * m_z;
 //#end
+    // Momentum, of both operators: B (ρ u_p - j), what the solid loses
+    gj_x += push_x;
+    gj_y += push_y;
+    gj_z += push_z;
 //#end
 
     // h* = h + M⁻¹ g, each row of M over its squared length
@@ -199,47 +247,61 @@ fn collided(
     let b_xx = g_pxx * (1.0 / 36.0) + g_pixx * (1.0 / 72.0);
     let b_ww = g_pww * (1.0 / 12.0) + g_piww * (1.0 / 24.0);
 //#if MOMENTUM
-    let o_face = 0.1 * (g_j - g_q);
-    let o_edge = 0.1 * g_j + 0.025 * g_q;
+    let f_x = 0.1 * (gj_x - gq_x);
+    let f_y = 0.1 * (gj_y - gq_y);
+    let f_z = 0.1 * (gj_z - gq_z);
+    let o_x = 0.1 * gj_x + 0.025 * gq_x;
+    let o_y = 0.1 * gj_y + 0.025 * gq_y;
+    let o_z = 0.1 * gj_z + 0.025 * gq_z;
 //#else
-    let o_face = -0.1 * g_q;
-    let o_edge = 0.025 * g_q;
+    let f_x = -0.1 * gq_x;
+    let f_y = -0.1 * gq_y;
+    let f_z = -0.1 * gq_z;
+    let o_x = 0.025 * gq_x;
+    let o_y = 0.025 * gq_y;
+    let o_z = 0.025 * gq_z;
 //#end
-    let o_first = o_edge + 0.125 * g_m;
-    let o_second = o_edge - 0.125 * g_m;
+    let of_x = o_x + 0.125 * gm_x;
+    let os_x = o_x - 0.125 * gm_x;
+    let of_y = o_y + 0.125 * gm_y;
+    let os_y = o_y - 0.125 * gm_y;
+    let of_z = o_z + 0.125 * gm_z;
+    let os_z = o_z - 0.125 * gm_z;
     let e_x = at_face + 2.0 * a_xx;
     let e_y = at_face - a_xx + a_ww;
     let e_z = at_face - a_xx - a_ww;
     let e_xy = at_edge + b_xx + b_ww;
     let e_xz = at_edge + b_xx - b_ww;
     let e_yz = at_edge - 2.0 * b_xx;
-    let sh = 0.25 * g_shear;
+    let sh_xy = 0.25 * g_xy;
+    let sh_yz = 0.25 * g_yz;
+    let sh_xz = 0.25 * g_xz;
     // Along (1, 1), (-1, 1) in each plane; x comes first in xy, second in xz, y first in yz.
-    let o7 = o_first.x + o_second.y;
-    let o8 = o_second.y - o_first.x;
-    let o11 = o_second.x + o_first.z;
-    let o12 = o_first.z - o_second.x;
-    let o15 = o_first.y + o_second.z;
-    let o16 = o_second.z - o_first.y;
-    var post: array<f32, 19>;
+    let o7 = of_x + os_y;
+    let o8 = os_y - of_x;
+    let o11 = os_x + of_z;
+    let o12 = of_z - os_x;
+    let o15 = of_y + os_z;
+    let o16 = os_z - of_y;
+    var post: array<real, 19>;
     post[0] = h[0] + at_rest;
-    post[1] = h[1] + (e_x + o_face.x);
-    post[2] = h[2] + (e_x - o_face.x);
-    post[3] = h[3] + (e_y + o_face.y);
-    post[4] = h[4] + (e_y - o_face.y);
-    post[5] = h[5] + (e_z + o_face.z);
-    post[6] = h[6] + (e_z - o_face.z);
-    post[7] = h[7] + (e_xy + sh.x + o7);
-    post[10] = h[10] + (e_xy + sh.x - o7);
-    post[8] = h[8] + (e_xy - sh.x + o8);
-    post[9] = h[9] + (e_xy - sh.x - o8);
-    post[11] = h[11] + (e_xz + sh.z + o11);
-    post[14] = h[14] + (e_xz + sh.z - o11);
-    post[12] = h[12] + (e_xz - sh.z + o12);
-    post[13] = h[13] + (e_xz - sh.z - o12);
-    post[15] = h[15] + (e_yz + sh.y + o15);
-    post[18] = h[18] + (e_yz + sh.y - o15);
-    post[16] = h[16] + (e_yz - sh.y + o16);
-    post[17] = h[17] + (e_yz - sh.y - o16);
+    post[1] = h[1] + (e_x + f_x);
+    post[2] = h[2] + (e_x - f_x);
+    post[3] = h[3] + (e_y + f_y);
+    post[4] = h[4] + (e_y - f_y);
+    post[5] = h[5] + (e_z + f_z);
+    post[6] = h[6] + (e_z - f_z);
+    post[7] = h[7] + (e_xy + sh_xy + o7);
+    post[10] = h[10] + (e_xy + sh_xy - o7);
+    post[8] = h[8] + (e_xy - sh_xy + o8);
+    post[9] = h[9] + (e_xy - sh_xy - o8);
+    post[11] = h[11] + (e_xz + sh_xz + o11);
+    post[14] = h[14] + (e_xz + sh_xz - o11);
+    post[12] = h[12] + (e_xz - sh_xz + o12);
+    post[13] = h[13] + (e_xz - sh_xz - o12);
+    post[15] = h[15] + (e_yz + sh_yz + o15);
+    post[18] = h[18] + (e_yz + sh_yz - o15);
+    post[16] = h[16] + (e_yz - sh_yz + o16);
+    post[17] = h[17] + (e_yz - sh_yz - o16);
     return post;
 }

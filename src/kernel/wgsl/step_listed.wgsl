@@ -7,11 +7,13 @@ fn step_listed(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let here = listed(number);
+    if (!is_cell(here)) {
+        return;
+    }
     let h = observed(here);
 //#if SOLIDS
-    let post = collided(h, solid_part(here));
+    keep(here, collided(h, solid_part(here)));
 //#else
-    let post = collided(h);
+    keep(here, collided(h));
 //#end
-    keep(here, post);
 }

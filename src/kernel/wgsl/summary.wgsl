@@ -11,7 +11,7 @@ struct Part {
     // Largest |j|²/ρ² and |j + G/2|²/ρ²
     bare_speed2: f32,
     speed2: f32,
-    // First broken cell, or 0xffffffff
+    // First broken cell by its place, or 0xffffffff
     broken: u32,
     spare: u32,
 }
@@ -30,6 +30,9 @@ fn summary(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var part = Part(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0xffffffffu, 0u);
     for (var cell = id.x; cell < task.count; cell += STRANDS) {
+        if (!is_cell(cell)) {
+            continue;
+        }
         let h = observed(cell);
         let drho = sum(h);
         let j = momentum(h);
@@ -50,7 +53,7 @@ fn summary(@builtin(global_invocation_id) id: vec3<u32>) {
         let solid = solid_part(cell);
         gain = (1.0 - solid.weight) * gain - solid.weight * j;
 //#if MOVING
-        gain += rho * solid.velocity;
+        gain += rho * vec3<f32>(solid.velocity_x, solid.velocity_y, solid.velocity_z);
 //#end
 //#end
         let flux = j + 0.5 * gain;

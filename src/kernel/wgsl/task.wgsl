@@ -3,7 +3,7 @@
 struct Task {
     // How many.
     count: u32,
-    // 0: all cells in their order, 1: those of the list.
+    // 0: all places in their order, 1: those of the list.
     is_listed: u32,
     // 0: the populations are kept as they are before a collision (at the start of a run), 1: as they
     // are after it.
@@ -22,10 +22,11 @@ fn listed(number: u32) -> u32 {
     return number;
 }
 
-// The populations of a cell before its next collision.
-fn observed(cell: u32) -> array<f32, 19> {
+// The populations at a place before their next collision.
+fn observed(place: u32) -> array<f32, 19> {
     if (task.is_collided == 1u) {
-        return entering(cell % NX, (cell / NX) % NY, cell / (NX * NY));
+        let x = coordinates(place);
+        return entering(x.x, x.y, x.z);
     }
-    return own(cell);
+    return own(place);
 }

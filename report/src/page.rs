@@ -1,0 +1,196 @@
+//! The validation report: verdicts, figures and tables as one self-contained HTML page.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use crate::error::PlotError;
+use crate::figure::Figure;
+use crate::render::render_svg;
+
+/// Wide enough to read, and no wider than the screen or the paper; verdicts by word and sign, not by
+/// colour alone.
+const STYLE: &str = include_str!("page.css");
+
+/// One claim with its verdict. Whether it holds is for the caller to say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// What is claimed, in words.
+    pub claim: String,
+    /// What was measured, as it is shown.
+    pub measured: String,
+    /// What is allowed, as it is shown.
+    pub allowed: String,
+    /// Why so much is allowed.
+    pub why: String,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+/// A table as it is shown.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DataTable {
+    /// What it shows, with units.
+    pub caption: String,
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// Its rows, each as long as the columns.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// One case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Its name: also that of its folder and of the place on the page.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// What it shows and what it is held to, a paragraph each.
+    pub about: Vec<String>,
+    /// Its verdicts.
+    pub verdicts: Vec<Verdict>,
+    /// Its figures; each is followed by its notes.
+    pub figures: Vec<Figure>,
+    /// Its tables.
+    pub tables: Vec<DataTable>,
+    /// The scene files, relative to the project.
+    pub scenes: Vec<String>,
+    /// The command that repeats it.
+    pub command: String,
+}
+
+/// The whole page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Page {
+    /// Its title.
+    pub title: String,
+    /// What it is, a paragraph each.
+    pub about: Vec<String>,
+    /// The cases.
+    pub sections: Vec<Section>,
+    /// What it was made with: name and value.
+    pub environment: Vec<(String, String)>,
+}
+
+impl Page {
+    /// Whether every claim of every case holds.
+    pub fn holds(&self) -> bool {
+        self.sections.iter().all(Section::holds)
+    }
+}
+
+impl Section {
+    /// Whether every claim holds; a case without a claim does not.
+    pub fn holds(&self) -> bool {
+        !self.verdicts.is_empty() && self.verdicts.iter().all(|verdict| verdict.holds)
+    }
+}
+
+/// The page as HTML, with its figures in it. Errors if a figure cannot be drawn.
+pub fn render_page(page: &Page) -> Result<String, PlotError> {
+    let sections = page.sections.iter().map(section).collect::<Result<Vec<_>, _>>()?;
+    let markup = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (page.title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { (page.title) }
+                @for paragraph in &page.about { p { (paragraph) } }
+                h2 id="verdicts" { "All claims" }
+                p class="summary" { (summary(page)) }
+                (all_verdicts(page))
+                @for section in sections { (section) }
+                h2 id="environment" { "Environment" }
+                dl {
+                    @for (name, value) in &page.environment { dt { (name) } dd { (value) } }
+                }
+            }
+        }
+    };
+    Ok(markup.into_string())
+}
+
+fn summary(page: &Page) -> String {
+    let verdicts = || page.sections.iter().flat_map(|section| &section.verdicts);
+    let (all, hold) = (verdicts().count(), verdicts().filter(|verdict| verdict.holds).count());
+    format!("{hold} of {all} claims hold.")
+}
+
+fn all_verdicts(page: &Page) -> Markup {
+    html! {
+        div class="wide" { table {
+            thead { tr { th { "case" } th { "claim" } th { "measured" } th { "allowed" } th { "verdict" } } }
+            tbody {
+                @for section in &page.sections {
+                    @for verdict in &section.verdicts {
+                        tr {
+                            td { a href=(format!("#{}", section.name)) { (section.name) } }
+                            td { (verdict.claim) }
+                            td class="number" { (verdict.measured) }
+                            td class="number" { (verdict.allowed) }
+                            (word(verdict.holds))
+                        }
+                    }
+                }
+            }
+        } }
+    }
+}
+
+/// The verdict in one cell of a table.
+fn word(holds: bool) -> Markup {
+    html! {
+        @if holds { td class="holds" { "✓ holds" } } @else { td class="fails" { "✗ FAILS" } }
+    }
+}
+
+fn section(section: &Section) -> Result<Markup, PlotError> {
+    let figures = section.figures.iter().map(render_svg).collect::<Result<Vec<_>, _>>()?;
+    Ok(html! {
+        section id=(section.name) {
+            h2 { (section.title) }
+            @for paragraph in &section.about { p { (paragraph) } }
+            @for figure in figures { figure { (PreEscaped(figure)) } }
+            div class="wide" { table {
+                thead { tr { th { "claim" } th { "measured" } th { "allowed" } th { "verdict" } th { "why so much" } } }
+                tbody {
+                    @for verdict in &section.verdicts {
+                        tr {
+                            td { (verdict.claim) }
+                            td class="number" { (verdict.measured) }
+                            td class="number" { (verdict.allowed) }
+                            (word(verdict.holds))
+                            td class="why" { (verdict.why) }
+                        }
+                    }
+                }
+            } }
+            @for table in &section.tables { (data_table(table)) }
+            p class="repeat" {
+                "Scenes: "
+                @for (i, scene) in section.scenes.iter().enumerate() {
+                    @if i > 0 { ", " }
+                    code { (scene) }
+                }
+                ". To repeat: " code { (section.command) }
+            }
+        }
+    })
+}
+
+fn data_table(table: &DataTable) -> Markup {
+    html! {
+        details {
+            summary { (table.caption) }
+            div class="wide" { table {
+                thead { tr { @for column in &table.columns { th { (column) } } } }
+                tbody {
+                    @for row in &table.rows { tr { @for value in row { td class="number" { (value) } } } }
+                }
+            } }
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Where cases run their scenes: on one engine, in folders that vanish, with cell updates counted.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use tempfile::TempDir;
+
+use super::{Case, CaseError, Table};
+use crate::engine::{Engine, KernelEngine, ReferenceEngine};
+use crate::kernel::Gpu;
+use crate::run::{End, Watcher, run};
+use crate::scene::Scene;
+
+/// Which engine a case runs on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EngineName {
+    /// The oracle.
+    Reference,
+    /// The kernel.
+    Wgpu,
+}
+
+impl EngineName {
+    /// As tables and `--engine` spell it.
+    pub fn word(self) -> &'static str {
+        match self {
+            EngineName::Reference => "reference",
+            EngineName::Wgpu => "wgpu",
+        }
+    }
+}
+
+/// Runs scenes for cases.
+pub struct Bench {
+    golden: PathBuf,
+    gpu: Option<Arc<Gpu>>,
+    /// Told which scene runs, with its changes.
+    tell: fn(&str),
+    cell_updates: u64,
+}
+
+/// A scene that has been run to its end.
+pub struct Finished {
+    /// The scene.
+    pub scene: Scene,
+    /// The engine at the end.
+    pub engine: Box<dyn Engine>,
+    folder: TempDir,
+}
+
+impl Bench {
+    /// On the oracle, or on the kernel of the device `gpu`, with the files of the folder `golden`.
+    pub fn new(golden: &Path, gpu: Option<Arc<Gpu>>, tell: fn(&str)) -> Self {
+        Bench { golden: golden.to_owned(), gpu, tell, cell_updates: 0 }
+    }
+
+    /// The engine.
+    pub fn engine_name(&self) -> EngineName {
+        if self.gpu.is_some() { EngineName::Wgpu } else { EngineName::Reference }
+    }
+
+    /// Cell updates so far.
+    pub fn cell_updates(&self) -> u64 {
+        self.cell_updates
+    }
+
+    /// A table of the folder of a case. Errors if it cannot be read.
+    pub fn literature(&self, case: &str, file: &str) -> Result<Table, CaseError> {
+        Table::read(&self.golden.join(case).join(file))
+    }
+
+    /// Measures a case. Errors as [`Case::measure`] does.
+    pub fn measure(&mut self, case: &Case) -> Result<Table, CaseError> {
+        (case.measure)(self)
+    }
+
+    /// Runs a scene of `golden/`, with changes as `--set` takes them, until it is steady. Errors if it
+    /// cannot be run or reaches its limit of time first.
+    pub fn steady(&mut self, scene: &str, changes: &[String]) -> Result<Finished, CaseError> {
+        let (finished, end) = self.run(scene, changes)?;
+        if end == End::Steady {
+            return Ok(finished);
+        }
+        let scene = format!("{scene} {}", changes.join(" "));
+        Err(CaseError::NotSteady { scene, steps: finished.engine.steps() })
+    }
+
+    /// Runs a scene of `golden/` to whatever end it has. Errors if it cannot be run.
+    pub fn run(&mut self, scene: &str, changes: &[String]) -> Result<(Finished, End), CaseError> {
+        (self.tell)(&format!("{} on {}: {}", scene, self.engine_name().word(), changes.join(" ")));
+        let scene = Scene::load(&self.golden.join(scene), changes)?;
+        let mut engine: Box<dyn Engine> = match &self.gpu {
+            None => Box::new(ReferenceEngine::new(&scene)?),
+            Some(gpu) => Box::new(KernelEngine::new(&scene, gpu, false)?),
+        };
+        let folder = tempfile::tempdir()?;
+        let end = run(&scene, engine.as_mut(), folder.path(), None, &mut GoOn)?;
+        self.cell_updates += engine.steps() * scene.setup.domain.cell_count() as u64;
+        Ok((Finished { scene, engine, folder }, end))
+    }
+}
+
+impl Finished {
+    /// The rows of one of its records.
+    pub fn record(&self, name: &str) -> Result<Table, CaseError> {
+        Table::read(&self.folder.path().join(format!("{name}.csv")))
+    }
+}
+
+/// Lets a run go on to its end.
+struct GoOn;
+
+impl Watcher for GoOn {
+    fn watch(&mut self, _: u64, _: Option<f64>) -> bool {
+        true
+    }
+}

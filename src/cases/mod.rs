@@ -1,0 +1,134 @@
+//! The acceptance cases: one table drives the tests, the golden files, the figures and the verdicts.
+//!
+//! A case runs its scene files, at a quick scale, on an engine ([`Case::measure`]); what it measured
+//! becomes rows, and rows beside literature become claims ([`Case::judge`]) and figures
+//! ([`Case::draw`]). `golden/<case>/expected.csv` keeps the rows of the oracle, reviewed, against drift.
+//! Full-scale results are committed beside it with the command that made them.
+
+mod bench;
+mod poiseuille;
+mod sphere_arrays;
+mod suspension;
+mod table;
+mod ten_cate;
+
+use std::io;
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+use psmrt_reference::coupling::CouplingError;
+use psmrt_report::Figure;
+use thiserror::Error;
+
+use crate::engine::{EngineStop, StartError};
+use crate::kernel::KernelError;
+use crate::run::RunError;
+use crate::scene::SceneError;
+
+pub use bench::{Bench, EngineName};
+pub use table::Table;
+
+/// A case of the acceptance suite.
+pub struct Case {
+    /// Its name: that of its folder under `golden/`.
+    pub name: &'static str,
+    /// Its title.
+    pub title: &'static str,
+    /// What it shows and how, a paragraph each.
+    pub about: &'static [&'static str],
+    /// Its scene files, in its folder.
+    pub scenes: &'static [&'static str],
+    /// Runs its scenes at the quick scale. Errors if one cannot be run or does not become steady.
+    pub measure: fn(&mut Bench) -> Result<Table, CaseError>,
+    /// What is claimed of the rows that were measured, both engines' together.
+    pub judge: fn(&Golden, &Table) -> Result<Vec<Claim>, CaseError>,
+    /// The figures.
+    pub draw: fn(&Golden, &Table) -> Result<Vec<Figure>, CaseError>,
+}
+
+/// All cases, in the order of the report.
+pub const CASES: &[Case] =
+    &[poiseuille::CASE, sphere_arrays::CASE, ten_cate::CASE, suspension::CASE];
+
+/// A claim about one number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// What is claimed, in words.
+    pub what: String,
+    /// The number that was measured.
+    pub measured: f64,
+    /// What it may be.
+    pub allowed: RangeInclusive<f64>,
+    /// Why so much is allowed, with the source of the expected value.
+    pub why: &'static str,
+}
+
+impl Claim {
+    /// Whether it holds; a measured NaN does not.
+    pub fn holds(&self) -> bool {
+        self.allowed.contains(&self.measured)
+    }
+}
+
+/// The folder of golden files of one case.
+#[derive(Clone, Debug)]
+pub struct Golden {
+    folder: PathBuf,
+}
+
+impl Golden {
+    /// The folder `golden/<case>`.
+    pub fn of(case: &Case, golden: &std::path::Path) -> Self {
+        Golden { folder: golden.join(case.name) }
+    }
+
+    /// A file of it.
+    pub fn path(&self, file: &str) -> PathBuf {
+        self.folder.join(file)
+    }
+
+    /// A table of it. Errors if it cannot be read.
+    pub fn table(&self, file: &str) -> Result<Table, CaseError> {
+        Table::read(&self.path(file))
+    }
+}
+
+/// Why a case could not be measured or judged.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// A scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] Box<SceneError>),
+    /// The oracle cannot take a scene.
+    #[error(transparent)]
+    Oracle(#[from] CouplingError),
+    /// The kernel cannot take a scene.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// The device cannot be had.
+    #[error(transparent)]
+    Device(#[from] KernelError),
+    /// A run could not go on.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A step could not be made.
+    #[error(transparent)]
+    Step(#[from] EngineStop),
+    /// A run ended at its limit of time: its result is not steady and cannot be judged.
+    #[error("{scene} is not steady after {steps} steps: raise `stop.time`")]
+    NotSteady {
+        /// The scene.
+        scene: String,
+        /// Steps made.
+        steps: u64,
+    },
+    /// A table lacks something.
+    #[error("{0}")]
+    Table(String),
+    /// A file.
+    #[error(transparent)]
+    File(#[from] io::Error),
+    /// A figure.
+    #[error(transparent)]
+    Plot(#[from] psmrt_report::PlotError),
+}

@@ -1,0 +1,104 @@
+//! Rows of named columns: what a case measures, and what the golden files hold.
+
+use std::path::Path;
+
+use super::CaseError;
+
+/// A table of text; numbers are parsed where they are used.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// Rows, each as long as the columns.
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// An empty table.
+    pub fn new(columns: &[&str]) -> Self {
+        Table { columns: columns.iter().map(|&name| name.to_owned()).collect(), rows: Vec::new() }
+    }
+
+    /// Reads a CSV file whose lines that start with `#` are comments. Errors if it cannot be read.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let wrong = |error: csv::Error| CaseError::Table(format!("{}: {error}", path.display()));
+        let mut reader =
+            csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).map_err(wrong)?;
+        let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
+        let rows = reader
+            .records()
+            .map(|row| Ok(row.map_err(wrong)?.iter().map(str::to_owned).collect()))
+            .collect::<Result<_, CaseError>>()?;
+        Ok(Table { columns, rows })
+    }
+
+    /// The rows as the text of a CSV file.
+    pub fn to_csv(&self) -> String {
+        let lines = std::iter::once(&self.columns).chain(&self.rows);
+        lines.map(|line| line.join(",") + "\n").collect()
+    }
+
+    /// Adds a row.
+    pub fn add(&mut self, row: Vec<String>) {
+        self.rows.push(row);
+    }
+
+    /// Adds the rows of another table with the same columns.
+    pub fn append(&mut self, other: Table) {
+        if self.columns.is_empty() {
+            self.columns = other.columns;
+        }
+        self.rows.extend(other.rows);
+    }
+
+    /// The number of a column. Errors if there is no such column.
+    fn column(&self, name: &str) -> Result<usize, CaseError> {
+        let found = self.columns.iter().position(|column| column == name);
+        found.ok_or_else(|| CaseError::Table(format!("no column {name:?} in {:?}", self.columns)))
+    }
+
+    /// The rows whose columns have these values.
+    pub fn with(&self, wanted: &[(&str, &str)]) -> Result<Table, CaseError> {
+        let wanted = wanted
+            .iter()
+            .map(|&(name, value)| Ok((self.column(name)?, value)))
+            .collect::<Result<Vec<_>, CaseError>>()?;
+        let rows = self.rows.iter().filter(|row| wanted.iter().all(|(i, value)| row[*i] == *value));
+        Ok(Table { columns: self.columns.clone(), rows: rows.cloned().collect() })
+    }
+
+    /// The values of a column, in the order of the rows. Errors if one is no number.
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, CaseError> {
+        let column = self.column(name)?;
+        let number = |row: &Vec<String>| {
+            let problem = || CaseError::Table(format!("column {name:?} holds {:?}", row[column]));
+            row[column].parse().map_err(|_| problem())
+        };
+        self.rows.iter().map(number).collect()
+    }
+
+    /// The one value of a column. Errors unless there is exactly one row.
+    pub fn number(&self, name: &str) -> Result<f64, CaseError> {
+        match self.numbers(name)?[..] {
+            [value] => Ok(value),
+            ref values => Err(CaseError::Table(format!("{} rows for {name:?}", values.len()))),
+        }
+    }
+
+    /// Pairs of two columns: points of a curve.
+    pub fn points(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, CaseError> {
+        Ok(self.numbers(x)?.into_iter().zip(self.numbers(y)?).collect())
+    }
+
+    /// The different values of a column, in the order in which they first stand there.
+    pub fn values(&self, name: &str) -> Result<Vec<String>, CaseError> {
+        let column = self.column(name)?;
+        let mut values: Vec<String> = Vec::new();
+        for row in &self.rows {
+            if !values.contains(&row[column]) {
+                values.push(row[column].clone());
+            }
+        }
+        Ok(values)
+    }
+}

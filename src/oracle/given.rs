@@ -1,0 +1,383 @@
+//! What a problem gives, as arrays and as JSON parameters: for candidates that read files.
+
+use psmrt_reference::collision::Collision;
+use psmrt_reference::coverage::Coverage;
+use psmrt_reference::domain::{Domain, FACE_NAMES, Face};
+use psmrt_reference::lattice::{Populations, Vec3, viscosity};
+use psmrt_reference::moments::NAMES;
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
+use psmrt_reference::rates::Rates;
+use psmrt_reference::setup::SolidPhase;
+use psmrt_reference::solids::Shape;
+use serde_json::{Map, Value, json};
+
+use super::array::Array;
+use super::spec::DIRECTION;
+use super::task::{
+    CollidingCell, Constants, Contacts, Scene, Task, TouchingPair, Wanted, kit_directions,
+};
+
+/// An array that a problem gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// Its name, and that of its file.
+    pub name: &'static str,
+    /// Names of its axes.
+    pub axes: Vec<&'static str>,
+    /// What it is, with its unit.
+    pub what: &'static str,
+    /// Its values.
+    pub array: Array,
+}
+
+fn input(name: &'static str, what: &'static str, axes: &[&'static str], array: Array) -> Input {
+    Input { name, axes: axes.to_vec(), what, array }
+}
+
+/// The arrays that `task` gives.
+pub fn inputs(task: &Task) -> Vec<Input> {
+    let vector = "component";
+    match task {
+        Task::Constants(Constants { viscosities, .. }) => vec![
+            input(
+                "directions",
+                "the kit's order of directions",
+                &[DIRECTION, vector],
+                kit_directions(),
+            ),
+            input("viscosity", "cells^2/step", &["viscosity"], Array::list(viscosities.clone())),
+        ],
+        Task::Moments(states) => {
+            let (rho, u): (Vec<f64>, Vec<Vec3>) = states.at.iter().copied().unzip();
+            vec![
+                input("f", "populations", &["cell", DIRECTION], Array::cells(&states.f)),
+                input("rho", "density for the equilibria", &["state"], Array::list(rho)),
+                input("u", "velocity for the equilibria", &["state", vector], Array::vectors(&u)),
+            ]
+        }
+        Task::Collisions(task) => collision_inputs(&task.cells),
+        Task::SolidFractions(task) => {
+            let (centres, radii): (Vec<Vec3>, Vec<f64>) = task.spheres.iter().copied().unzip();
+            let what = "from the centre of the cell to that of the sphere, cells";
+            vec![
+                input("offset", what, &["cell", vector], Array::vectors(&centres)),
+                input("radius", "cells", &["cell"], Array::list(radii)),
+            ]
+        }
+        Task::Weights(task) => {
+            let (epsilon, tau): (Vec<f64>, Vec<f64>) = task.cells.iter().copied().unzip();
+            vec![
+                input("epsilon", "solid fraction", &["cell"], Array::list(epsilon)),
+                input("tau", "relaxation time, steps", &["cell"], Array::list(tau)),
+            ]
+        }
+        Task::SharedWeights(task) => {
+            let epsilon: Vec<f64> = task.cells.iter().flat_map(|cell| cell.0).collect();
+            let tau = task.cells.iter().map(|cell| cell.1).collect();
+            let epsilon = Array::new([task.cells.len(), 2], epsilon);
+            vec![
+                input("epsilon", "solid fractions", &["cell", "solid"], epsilon),
+                input("tau", "relaxation time, steps", &["cell"], Array::list(tau)),
+            ]
+        }
+        Task::Streaming(task) => {
+            let what = "populations after the collision";
+            vec![box_input("post", what, &task.domain, &task.post)]
+        }
+        Task::Scene(scene) => scene_inputs(scene),
+        Task::Contacts(task) => contact_inputs(&task.pairs),
+        Task::Formulas(task) => {
+            let what = "Reynolds numbers";
+            vec![input("reynolds", what, &["reynolds"], Array::list(task.reynolds.clone()))]
+        }
+    }
+}
+
+fn box_input(name: &'static str, what: &'static str, domain: &Domain, f: &[Populations]) -> Input {
+    input(name, what, &["z", "y", "x", DIRECTION], Array::populations(domain.cells(), f))
+}
+
+fn collision_inputs(cells: &[CollidingCell]) -> Vec<Input> {
+    let f: Vec<Populations> = cells.iter().map(|cell| cell.f).collect();
+    let tau = cells.iter().map(|cell| cell.collision.tau()).collect();
+    let mut inputs = vec![
+        input("f", "populations before the collision", &["cell", DIRECTION], Array::cells(&f)),
+        input("tau", "relaxation time, steps", &["cell"], Array::list(tau)),
+    ];
+    let rates: Vec<[f64; 6]> = cells.iter().filter_map(|cell| mrt_rates(&cell.collision)).collect();
+    if !rates.is_empty() {
+        let what = "relaxation rates s_e, s_eps, s_q, s_nu, s_pi, s_m (s1, s2, s4, s9, 11th, s16)";
+        let values = rates.iter().flatten().copied().collect();
+        inputs.push(input("rates", what, &["cell", "rate"], Array::new([rates.len(), 6], values)));
+    }
+    let forces: Vec<Vec3> = cells.iter().filter_map(|cell| cell.body_force).collect();
+    if !forces.is_empty() {
+        let what = "body force G per volume on the fluid";
+        inputs.push(input("body_force", what, &["cell", "component"], Array::vectors(&forces)));
+    }
+    let (epsilon, u_p): (Vec<f64>, Vec<Vec3>) = cells.iter().filter_map(|cell| cell.solid).unzip();
+    if !epsilon.is_empty() {
+        inputs.push(input("epsilon", "solid fraction", &["cell"], Array::list(epsilon)));
+        let what = "velocity of the solid, cells/step";
+        inputs.push(input("u_p", what, &["cell", "component"], Array::vectors(&u_p)));
+    }
+    inputs
+}
+
+fn mrt_rates(collision: &Collision) -> Option<[f64; 6]> {
+    match collision {
+        Collision::Srt { .. } => None,
+        Collision::Mrt { rates: Rates { e, eps, q, nu, pi, m } } => {
+            Some([*e, *eps, *q, *nu, *pi, *m])
+        }
+    }
+}
+
+fn scene_inputs(scene: &Scene) -> Vec<Input> {
+    let domain = &scene.setup.domain;
+    let what = "populations at the start, before the first collision";
+    let mut inputs = vec![box_input("populations", what, domain, &scene.populations)];
+    if let Some(phase) = &scene.setup.solid_phase {
+        let coverage = Coverage::new(domain, &phase.solids, phase.coverage);
+        let of = |solid| {
+            let coverage = &coverage;
+            (0..domain.cell_count()).map(move |cell| {
+                coverage
+                    .shares(cell)
+                    .iter()
+                    .filter(|s| s.solid == solid)
+                    .map(|s| s.epsilon)
+                    .sum::<f64>()
+            })
+        };
+        let values = (0..phase.solids.len()).flat_map(of).collect();
+        let [nx, ny, nz] = domain.cells();
+        let array = Array::new([phase.solids.len(), nz, ny, nx], values);
+        let what = "solid fraction of each solid in each cell at the start";
+        inputs.push(input("solid_fraction", what, &["solid", "z", "y", "x"], array));
+    }
+    inputs
+}
+
+fn contact_inputs(pairs: &[TouchingPair]) -> Vec<Input> {
+    let vectors =
+        |of: fn(&TouchingPair) -> Vec3| Array::vectors(&pairs.iter().map(of).collect::<Vec<_>>());
+    let list = |of: fn(&TouchingPair) -> f64| Array::list(pairs.iter().map(of).collect());
+    let (pair, vector) = ("pair", ["pair", "component"]);
+    let radii = pairs.iter().flat_map(|pair| pair.radii).collect();
+    let mut inputs = vec![
+        input(
+            "radii",
+            "radii of both; 0: a plane",
+            &[pair, "body"],
+            Array::new([pairs.len(), 2], radii),
+        ),
+        input(
+            "offset",
+            "from the first centre to the second, or to the nearest point of the plane",
+            &vector,
+            vectors(|p| p.offset),
+        ),
+        input("velocity_first", "of the centre", &vector, vectors(|p| p.motions[0].velocity)),
+        input(
+            "velocity_second",
+            "of the centre, or the plane",
+            &vector,
+            vectors(|p| p.motions[1].velocity),
+        ),
+        input("spin_first", "angular velocity", &vector, vectors(|p| p.motions[0].spin)),
+        input("spin_second", "angular velocity", &vector, vectors(|p| p.motions[1].spin)),
+        input("stiffness", "k, force/length", &[pair], list(|p| p.law.stiffness)),
+        input("damping", "gamma, force time/length", &[pair], list(|p| p.law.damping)),
+    ];
+    if pairs.iter().any(|pair| pair.law.friction.is_some()) {
+        let mut friction = |name, what, of: fn(&TouchingPair) -> f64| {
+            inputs.push(input(name, what, &[pair], list(of)));
+        };
+        friction("friction", "mu", |p| p.law.friction.map_or(0.0, |f| f.coefficient));
+        friction("tangential_stiffness", "k_t", |p| p.law.friction.map_or(0.0, |f| f.stiffness));
+        friction("tangential_damping", "gamma_t", |p| p.law.friction.map_or(0.0, |f| f.damping));
+        inputs.push(input(
+            "spring",
+            "tangential spring xi",
+            &vector,
+            vectors(|p| p.springs.spring),
+        ));
+    }
+    if pairs.iter().any(|pair| pair.law.rolling.is_some()) {
+        let mut rolling = |name, what, of: fn(&TouchingPair) -> f64| {
+            inputs.push(input(name, what, &[pair], list(of)));
+        };
+        rolling("rolling_friction", "mu_r", |p| p.law.rolling.map_or(0.0, |r| r.coefficient));
+        rolling("rolling_stiffness", "k_r, force/length", |p| {
+            p.law.rolling.map_or(0.0, |r| r.stiffness)
+        });
+        rolling("rolling_damping", "gamma_r", |p| p.law.rolling.map_or(0.0, |r| r.damping));
+        inputs.push(input(
+            "rolling_spring",
+            "theta, radians",
+            &vector,
+            vectors(|p| p.springs.rolling),
+        ));
+    }
+    inputs
+}
+
+/// The parameters of `task`: what is no array.
+pub fn parameters(task: &Task) -> Value {
+    match task {
+        Task::Constants(task) => json!({
+            "preset": "dhumieres", "tau": task.rates.tau(), "rates": named_rates(&task.rates),
+            "moment_names": NAMES,
+        }),
+        Task::Moments(_) => json!({ "moment_names": NAMES }),
+        Task::Collisions(task) => {
+            let first = task.cells.first();
+            let mut parameters = Map::new();
+            let mrt = first.is_some_and(|cell| mrt_rates(&cell.collision).is_some());
+            parameters.insert("collision".into(), if mrt { "mrt" } else { "srt" }.into());
+            parameters
+                .insert("body_force".into(), first.is_some_and(|c| c.body_force.is_some()).into());
+            if first.is_some_and(|cell| cell.solid.is_some()) {
+                parameters.insert("operator".into(), operator_name(task.operator).into());
+                parameters.insert("weighting".into(), weighting_name(task.weighting).into());
+            }
+            Value::Object(parameters)
+        }
+        Task::Weights(_) | Task::SharedWeights(_) => {
+            json!({ "weighting": weighting_name(Weighting::NobleTorczynski) })
+        }
+        Task::SolidFractions(_) => json!({}),
+        Task::Streaming(task) => {
+            json!({ "cells": task.domain.cells(), "faces": faces(&task.domain) })
+        }
+        Task::Scene(scene) => scene_parameters(scene),
+        Task::Contacts(Contacts { plane, pairs }) => json!({
+            "plane": plane,
+            "friction": pairs.iter().any(|pair| pair.law.friction.is_some()),
+            "rolling": pairs.iter().any(|pair| pair.law.rolling.is_some()),
+        }),
+        Task::Formulas(task) => {
+            let ([d, v, nu], [count, diameter, porosity, x, y]) = (task.settling, task.bed);
+            json!({
+                "settling": { "diameter_m": d, "velocity_m_per_s": v, "viscosity_m2_per_s": nu },
+                "bed": { "spheres": count, "diameter": diameter, "porosity": porosity, "sides": [x, y] },
+            })
+        }
+    }
+}
+
+fn named_rates(rates: &Rates) -> Value {
+    let Rates { e, eps, q, nu, pi, m } = rates;
+    json!({ "e": e, "eps": eps, "q": q, "nu": nu, "pi": pi, "m": m })
+}
+
+fn scene_parameters(scene: &Scene) -> Value {
+    let setup = &scene.setup;
+    let mut parameters = json!({
+        "cells": setup.domain.cells(),
+        "faces": faces(&setup.domain),
+        "body_force": setup.body_force.map(components),
+        "steps": scene.steps,
+        "solids": [],
+    });
+    let tau = setup.collision.tau();
+    if scene.viscosity_given {
+        parameters["viscosity"] = viscosity(tau).into();
+    } else {
+        parameters["tau"] = tau.into();
+    }
+    match &setup.collision {
+        Collision::Srt { .. } => parameters["collision"] = "srt".into(),
+        Collision::Mrt { rates } => {
+            parameters["collision"] = "mrt".into();
+            parameters["rates"] = named_rates(rates);
+            if let (true, Some(rates)) =
+                (scene.viscosity_given, parameters["rates"].as_object_mut())
+            {
+                rates.remove("nu");
+            }
+        }
+    }
+    if let Some(phase) = &setup.solid_phase {
+        parameters["operator"] = operator_name(phase.operator).into();
+        parameters["weighting"] = weighting_name(phase.weighting).into();
+        parameters["solids"] = solids(phase);
+    }
+    if let Some(Wanted::ShearViscosity { amplitude }) = scene.wanted.first() {
+        parameters["amplitude"] = (*amplitude).into();
+    }
+    parameters
+}
+
+fn solids(phase: &SolidPhase) -> Value {
+    let solid = |solid: &psmrt_reference::solids::Solid| {
+        let radius = match &solid.shape {
+            Shape::Sphere { radius } => Some(*radius),
+            Shape::Cells { .. } => None,
+        };
+        json!({
+            "radius": radius,
+            "centre": components(solid.centre),
+            "velocity": components(solid.velocity),
+            "spin": components(solid.spin),
+        })
+    };
+    phase.solids.iter().map(solid).collect()
+}
+
+fn operator_name(operator: SolidOperator) -> &'static str {
+    match operator {
+        SolidOperator::NonEquilibriumBounceBack => "non_equilibrium_bounce_back",
+        SolidOperator::Superposition => "superposition",
+    }
+}
+
+fn weighting_name(weighting: Weighting) -> &'static str {
+    match weighting {
+        Weighting::SolidFraction => "solid_fraction",
+        Weighting::NobleTorczynski => "noble_torczynski",
+    }
+}
+
+fn faces(domain: &Domain) -> Value {
+    let mut faces = Map::new();
+    for axis in 0..3 {
+        for side in 0..2 {
+            let face = match domain.faces().axis(axis)[side] {
+                Face::Periodic => json!({ "kind": "periodic" }),
+                Face::Wall { velocity } => {
+                    json!({ "kind": "wall", "velocity": components(velocity) })
+                }
+                Face::FreeSlip => json!({ "kind": "free_slip" }),
+                Face::VelocityInlet { velocity } => {
+                    json!({ "kind": "velocity_inlet", "velocity": components(velocity) })
+                }
+                Face::FreeOutflow => json!({ "kind": "free_outflow" }),
+                Face::Pressure { density } => json!({ "kind": "pressure", "density": density }),
+            };
+            faces.insert(FACE_NAMES[axis][side].to_owned(), face);
+        }
+    }
+    Value::Object(faces)
+}
+
+fn components(vector: Vec3) -> [f64; 3] {
+    vector.into()
+}
+
+/// The kind of a problem, as the manifest spells it.
+pub fn kind(task: &Task) -> &'static str {
+    match task {
+        Task::Constants(_) => "constants",
+        Task::Moments(_) => "moments",
+        Task::Collisions(_) => "collisions",
+        Task::SolidFractions(_) => "solid_fractions",
+        Task::Weights(_) => "weights",
+        Task::SharedWeights(_) => "shared_weights",
+        Task::Streaming(_) => "streaming",
+        Task::Scene(_) => "scene",
+        Task::Contacts(_) => "contacts",
+        Task::Formulas(_) => "formulas",
+    }
+}

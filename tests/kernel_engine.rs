@@ -1,0 +1,221 @@
+//! The kernel as an engine: free grains, saved states, the guard, the command line.
+
+mod cli;
+mod common;
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use cli::{Folder, psmrt, stdout};
+use common::{Budget, trials};
+use psmrt::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
+use psmrt::scene::Scene;
+use psmrt_reference::coupling::CoupledStop;
+use psmrt_reference::guard::Stopped;
+
+/// Three free grains, one of them spinning, in a box with walls; far enough apart not to touch.
+const GRAINS: &str = r#"
+[domain]
+cells = [20, 16, 18]
+dx = 1e-4
+
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+
+[time]
+tau = 0.8
+
+[faces]
+z_low.kind = "wall"
+z_high.kind = "wall"
+
+[gravity]
+acceleration = [0.0, 0.0, -0.5]
+
+[[grains]]
+kind = "sphere"
+centre = [5e-4, 5e-4, 9e-4]
+diameter = 6e-4
+density = 2650.0
+motion = "free"
+
+[[grains]]
+kind = "sphere"
+centre = [14e-4, 5e-4, 9e-4]
+diameter = 5e-4
+density = 1200.0
+motion = "free"
+spin = [0.0, 1.0, 0.0]
+
+[[grains]]
+kind = "sphere"
+centre = [10e-4, 12e-4, 8e-4]
+diameter = 5e-4
+density = 1800.0
+motion = "free"
+velocity = [1e-3, 0.0, 0.0]
+
+[[records]]
+name = "box"
+kind = "box"
+every_steps = 20
+
+[checkpoint]
+every_steps = 40
+
+[stop]
+steps = 80
+"#;
+
+fn scene(text: &str, changes: &[&str]) -> Scene {
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    Scene::from_bytes("test.toml", text.into(), Path::new(""), &changes)
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn kernel_engine(scene: &Scene) -> KernelEngine {
+    KernelEngine::new(scene, &trials::gpu().unwrap(), false).unwrap()
+}
+
+fn free_grains_move_as_in_the_oracle() {
+    let mut budget = Budget::kernel(700_000);
+    const STEPS: u64 = 100;
+    let scene = scene(GRAINS, &[]);
+    budget.spend(STEPS * scene.setup.domain.cell_count() as u64);
+    let (mut kernel, mut oracle) = (kernel_engine(&scene), ReferenceEngine::new(&scene).unwrap());
+    kernel.step(STEPS).unwrap();
+    oracle.step(STEPS).unwrap();
+    for (found, expected) in kernel.solids().iter().zip(&oracle.solids()) {
+        let speed = expected.velocity.norm();
+        let off = (found.velocity - expected.velocity).norm();
+        println!(
+            "speed {speed:.2e}, off by {off:.1e}, place by {:.1e}",
+            (found.centre - expected.centre).norm()
+        );
+        // The load of a step is off by about 1e-6 (tests/kernel_runs.rs: 2 ε of gauges below 0.3, times
+        // √(10 · 200)), the grain weighs 65 or more: 2e-8 a step, independent from step to step.
+        let bound = 2e-8 * (STEPS as f64).sqrt();
+        assert!(off < bound, "{off:e} > {bound:e}");
+        assert!((found.centre - expected.centre).norm() < bound * STEPS as f64);
+        // A grain that were not driven at all would be off by all of its speed.
+        assert!(speed > 100.0 * bound, "the grains must move for this to say anything");
+    }
+}
+
+/// The bits of a state.
+fn bits(engine: &KernelEngine) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    engine.save(&mut bytes).unwrap();
+    bytes
+}
+
+fn saved_state_goes_on_bit_for_bit() {
+    let mut budget = Budget::kernel(2_000_000);
+    let fixed = std::fs::read_to_string("golden/sphere_arrays/scene.toml").unwrap();
+    let scenes = [scene(GRAINS, &[]), scene(&fixed, &["domain.cells=[12,12,12]"])];
+    for scene in scenes {
+        let cells = scene.setup.domain.cell_count() as u64;
+        // Also at the start, where the state is kept in another form, and off the guard's rhythm.
+        for first in [0, 1, 37] {
+            budget.spend((first + 2 * 30) * cells);
+            let mut straight = kernel_engine(&scene);
+            straight.step(first).unwrap();
+            let saved = bits(&straight);
+            let mut resumed = kernel_engine(&scene);
+            resumed.load(&mut &saved[..]).unwrap();
+            assert!(bits(&resumed) == saved, "what is loaded is what was saved");
+            straight.step(30).unwrap();
+            resumed.step(30).unwrap();
+            assert!(bits(&straight) == bits(&resumed), "from step {first}");
+        }
+    }
+}
+
+/// A force without anything that holds the fluid back.
+const RUNAWAY: &str = r#"
+[domain]
+cells = [8, 9, 10]
+dx = 1e-4
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.8
+[body_force]
+acceleration = [0.5, 0.0, 0.0]
+[stop]
+steps = 10000
+"#;
+
+fn guard_stops_a_run_where_and_why_the_oracles_does() {
+    let mut budget = Budget::kernel(150_000);
+    // 5e-3 a step reach the limit of 0.5 after 100.
+    budget.spend(720 * 200);
+    let scene = scene(RUNAWAY, &[]);
+    let stopped = |engine: &mut dyn Engine| -> Stopped {
+        match engine.step(200) {
+            Err(EngineStop::Broken(CoupledStop::Fluid(stopped))) => stopped,
+            other => panic!("not stopped by the guard: {other:?}"),
+        }
+    };
+    let found = stopped(&mut kernel_engine(&scene));
+    let expected = stopped(&mut ReferenceEngine::new(&scene).unwrap());
+    println!("{found}\n{expected}");
+    assert_eq!((found.step, found.cell), (expected.step, expected.cell));
+    assert_eq!(std::mem::discriminant(&found.symptom), std::mem::discriminant(&expected.symptom));
+    assert_eq!(std::mem::discriminant(&found.cause), std::mem::discriminant(&expected.cause));
+}
+
+fn run_on_the_command_line_keeps_its_engine_and_goes_on_with_it() {
+    let folder = Folder::new("kernel_engine");
+    let file = folder.write("scene.toml", GRAINS);
+    let (file, out) = (file.to_str().unwrap(), folder.path("run"));
+    let run = ["run", file, "--engine", "wgpu", "--profile", "--out", out.to_str().unwrap()];
+    let output = psmrt(&run);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for part in ["fluid", "forces", "grains", "coverage", "transfers"] {
+        assert!(stdout(&output).contains(part), "{}", stdout(&output));
+    }
+    let facts = |out: &Path| -> serde_json::Value {
+        serde_json::from_slice(&std::fs::read(out.join("run.json")).unwrap()).unwrap()
+    };
+    let first = facts(&out);
+    assert_eq!(first["engine"], "wgpu");
+    assert!(first["adapter"].as_str().is_some_and(|adapter| !adapter.is_empty()));
+    let before = std::fs::read(out.join("box.csv")).unwrap();
+    // From step 40 again.
+    let output = psmrt(&["resume", out.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert_eq!(facts(&out)["engine"], "wgpu");
+    assert!(std::fs::read(out.join("box.csv")).unwrap() == before, "the same bits in the record");
+}
+
+fn unknown_adapter_is_an_error_that_lists_the_known_ones() {
+    let scene = "golden/poiseuille/scene.toml";
+    let output = psmrt(&["run", scene, "--engine", "wgpu", "--adapter", "no such thing"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    let known = &trials::gpu().unwrap().facts().name.clone();
+    assert!(message.contains("no such thing") && message.contains(known.as_str()), "{message}");
+    assert!(stdout(&psmrt(&["info"])).contains(known.as_str()));
+}
+
+fn main() -> ExitCode {
+    trials::run(&[
+        ("free_grains_move_as_in_the_oracle", free_grains_move_as_in_the_oracle),
+        ("saved_state_goes_on_bit_for_bit", saved_state_goes_on_bit_for_bit),
+        (
+            "guard_stops_a_run_where_and_why_the_oracles_does",
+            guard_stops_a_run_where_and_why_the_oracles_does,
+        ),
+        (
+            "run_on_the_command_line_keeps_its_engine_and_goes_on_with_it",
+            run_on_the_command_line_keeps_its_engine_and_goes_on_with_it,
+        ),
+        (
+            "unknown_adapter_is_an_error_that_lists_the_known_ones",
+            unknown_adapter_is_an_error_that_lists_the_known_ones,
+        ),
+    ])
+}
