@@ -53,23 +53,3 @@ fn random_suspension_settles_as_its_far_field_and_as_richardson_and_zaki_say() {
     // Between the two exponents, and beyond them by what three placements scatter.
     assert!(mean > 0.95 * lower && mean < 1.05 * upper, "{mean}: {lower} to {upper}");
 }
-
-#[test]
-fn suspensions_of_the_full_study_settle_as_richardson_and_zaki_say() {
-    let rows = golden_rows("suspension/study.csv");
-    for (wanted, tau) in [("0.02", 0.7), ("0.05", 0.7), ("0.1", 0.7), ("0.2", 0.55), ("0.3", 0.55)]
-    {
-        let own: Vec<[f64; 4]> = rows
-            .iter()
-            .filter(|row| &row[0] == wanted && &row[1] == "40" && row[3].parse() == Ok(tau))
-            .map(|row| [4, 6, 7, 8].map(|i| row[i].parse().unwrap()))
-            .collect();
-        assert!(own.len() >= 2, "{wanted}: the study has {} placements", own.len());
-        let phi = own[0][0];
-        let estimate = |[_, found, far_field, infinite]: &[f64; 4]| found / far_field * infinite;
-        let mean = own.iter().map(estimate).sum::<f64>() / own.len() as f64;
-        let [upper, lower] = EXPONENTS.map(|n| (1.0 - phi).powf(n));
-        println!("{wanted}: {mean:.4}, Richardson-Zaki {lower:.4} to {upper:.4}");
-        assert!(mean > 0.95 * lower && mean < 1.05 * upper, "{wanted}: {mean}: {lower} to {upper}");
-    }
-}

@@ -34,20 +34,3 @@ fn sphere_of_ten_cate_falls_as_measured_at_8_cells_per_diameter() {
     assert!(braking < 0.05, "{braking}");
     assert!(si_delay < 0.35 * experiment.si_diameter / experiment.si_largest, "{si_delay}");
 }
-
-#[test]
-fn sphere_of_ten_cate_is_as_close_to_the_measurement_on_every_grid_of_the_full_study() {
-    let rows = common::golden_rows("ten_cate/study.csv");
-    let cases = ["E1", "E2", "E3", "E4"];
-    for case in cases {
-        let own: Vec<_> = rows.iter().filter(|row| &row[0] == case).collect();
-        assert!(own.len() >= 2, "{case}: the study has {} grids", own.len());
-        for row in own {
-            let [largest, velocity]: [f64; 2] = [6, 7].map(|i| row[i].parse().unwrap());
-            // As above. The slower a fall, the more its first points show that the measured spheres start
-            // later than their clock, by up to 0.1 s (the delay that the braking has too): in E1 that is
-            // a fifth of the velocity at the first of 26 points, 4 % in the mean.
-            assert!(largest.abs() < 0.03 && velocity < 0.055, "{row:?}");
-        }
-    }
-}
