@@ -1,0 +1,130 @@
+//! The kernel answers the conformance kit like anyone else's: single cells, spheres, and whole scenes,
+//! judged in single precision. Constants, moments and streaming by itself are inside its shaders, and
+//! grains in contact are not its own: not attempted.
+
+mod common;
+
+use std::process::ExitCode;
+
+use common::{Budget, trials};
+use psmrt::kernel::{Kernel, solid_fraction};
+use psmrt::oracle::kit::Kit;
+use psmrt::oracle::task::{Collisions, Scene, SceneOutcome, Spheres, Task};
+use psmrt::oracle::{Answers, Array, Candidate, Precision, judge};
+use psmrt_reference::coverage::CoverageRule;
+use psmrt_reference::domain::{Domain, Faces};
+use psmrt_reference::forcing::forced_velocity;
+use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
+use psmrt_reference::setup::{Setup, SolidPhase};
+use psmrt_reference::solids::{Load, Solid};
+
+fn main() -> ExitCode {
+    trials::run(&[
+        ("kernel_passes_the_conformance_kit", kernel_passes_the_conformance_kit),
+        ("kernel_that_weighs_by_solid_fraction_is_found_out", wrong_weight_is_found_out),
+    ])
+}
+
+/// The kernel as a candidate; `spoil` may change a set-up before it gets it.
+struct KernelCandidate {
+    budget: Budget,
+    spoil: fn(&mut Setup),
+}
+
+impl KernelCandidate {
+    /// Runs a set-up from `start` for `steps` steps, the solids moving as prescribed.
+    fn run(
+        &mut self,
+        mut setup: Setup,
+        start: &[Populations],
+        steps: u64,
+    ) -> (Vec<Populations>, Vec<Load>) {
+        (self.spoil)(&mut setup);
+        let phase = setup.solid_phase.as_ref();
+        let moves = phase.is_some_and(|phase| phase.solids.iter().any(Solid::moves));
+        let mut kernel = Kernel::new(&trials::gpu().unwrap(), setup, moves).unwrap();
+        kernel.set_populations(start).unwrap();
+        for _ in 0..steps {
+            self.budget.advance(&mut kernel, 1);
+            if moves {
+                let mut solids = kernel.setup().solid_phase.as_ref().unwrap().solids.clone();
+                solids.iter_mut().for_each(|solid| solid.centre += solid.velocity);
+                kernel.place_solids(solids).unwrap();
+            }
+        }
+        let all: Vec<usize> = (0..start.len()).collect();
+        (kernel.populations(&all).unwrap(), kernel.loads().unwrap())
+    }
+}
+
+impl Candidate for KernelCandidate {
+    fn name(&self) -> String {
+        "psmrt's kernel".to_owned()
+    }
+
+    fn precision(&self) -> Precision {
+        Precision::F32
+    }
+
+    fn collisions(&mut self, problem: &Collisions) -> Option<Answers> {
+        let (mut post, mut forces) = (Vec::new(), Vec::new());
+        for cell in &problem.cells {
+            // In a periodic box of one cell streaming changes nothing.
+            let mut setup =
+                Setup::fluid(Domain::new([1, 1, 1], Faces::PERIODIC).unwrap(), cell.collision);
+            setup.body_force = cell.body_force;
+            setup.solid_phase = cell.solid.map(|(epsilon, velocity)| SolidPhase {
+                solids: vec![Solid { velocity, ..Solid::fixed_cells(vec![(0, epsilon)]) }],
+                weighting: problem.weighting,
+                operator: problem.operator,
+                coverage: CoverageRule::Exact,
+            });
+            let (f, loads) = self.run(setup, &[cell.f], 1);
+            post.push(f[0]);
+            forces.extend(loads.first().map(|load| load.force));
+        }
+        let answers = Answers::new().with("post", Array::cells(&post));
+        let solid = !forces.is_empty();
+        Some(if solid { answers.with("force", Array::vectors(&forces)) } else { answers })
+    }
+
+    fn solid_fractions(&mut self, problem: &Spheres) -> Option<Answers> {
+        let fraction = |(offset, radius): &(Vec3, f64)| solid_fraction((*offset).into(), *radius);
+        let fractions = problem.spheres.iter().map(fraction).collect();
+        Some(Answers::new().with("solid_fraction", Array::list(fractions)))
+    }
+
+    fn scene(&mut self, problem: &Scene) -> Option<SceneOutcome> {
+        let (f, loads) = self.run(problem.setup.clone(), &problem.populations, problem.steps);
+        let g = problem.setup.body_force.unwrap_or_default();
+        let velocity = f.iter().map(|f| forced_velocity(density(f), &momentum(f), &g)).collect();
+        Some(SceneOutcome { populations: Some(f), velocity: Some(velocity), loads: Some(loads) })
+    }
+}
+
+/// A candidate with the cell updates that the kit asks for.
+fn candidate(spoil: fn(&mut Setup)) -> KernelCandidate {
+    KernelCandidate { budget: Budget::kernel(25_000), spoil }
+}
+
+fn kernel_passes_the_conformance_kit() {
+    let verdict = judge(&mut candidate(|_| {})).unwrap();
+    println!("{verdict}");
+    assert!(verdict.passed(), "{verdict}");
+    // Stages 2, 5 and 7 whole, one answer of stage 3, the six of stage 8 that are measured in scenes.
+    assert_eq!(verdict.attempted(), 16 + 1 + 10 + 16 + 6);
+    let scenes = Kit::make().unwrap().problems.into_iter();
+    let scenes = scenes.filter(|solved| matches!(solved.problem.task, Task::Scene(_))).count();
+    assert_eq!(scenes, 5 + 8 + 5);
+}
+
+fn wrong_weight_is_found_out() {
+    let spoil = |setup: &mut Setup| {
+        if let Some(phase) = &mut setup.solid_phase {
+            phase.weighting = psmrt_reference::partial_saturation::Weighting::SolidFraction;
+        }
+    };
+    let verdict = judge(&mut candidate(spoil)).unwrap();
+    let named = verdict.diagnosis.as_ref().and_then(|diagnosis| diagnosis.named());
+    assert_eq!(named.map(|mistake| mistake.entry().name), Some("b_is_epsilon"), "{verdict}");
+}
