@@ -201,8 +201,21 @@ fn unknown_adapter_is_an_error_that_lists_the_known_ones() {
     assert!(stdout(&psmrt(&["info"])).contains(known.as_str()));
 }
 
+fn box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available() {
+    let gpu = psmrt::kernel::Gpu::open_like_hardware(1 << 16).unwrap();
+    // One direction of 32³ cells needs 128 KiB and a little, a binding has 64.
+    let scene = scene(RUNAWAY, &["domain.cells=[32,32,32]"]);
+    let message = KernelEngine::new(&scene, &gpu, false).unwrap_err().to_string();
+    assert!(message.contains("65536") && message.contains("13"), "{message}");
+    assert!(message.contains("larger dx"), "{message}");
+}
+
 fn main() -> ExitCode {
     trials::run(&[
+        (
+            "box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available",
+            box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available,
+        ),
         ("free_grains_move_as_in_the_oracle", free_grains_move_as_in_the_oracle),
         ("saved_state_goes_on_bit_for_bit", saved_state_goes_on_bit_for_bit),
         (

@@ -124,6 +124,8 @@ impl Recipe<'_> {
             Work::Impulses => include_str!("wgsl/loads.wgsl"),
         });
         // Not an alias: naga takes arrays of an alias for another type than arrays of what it stands for.
+        let quad = if is_wide && self.layout.pairs { "vec2<u64>" } else { "real" };
+        let text = with_word(&text, "quad", quad);
         with_word(&text, "real", if is_wide { "vec4<f32>" } else { "f32" })
     }
 

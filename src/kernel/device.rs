@@ -23,6 +23,8 @@ pub struct AdapterFacts {
     pub max_binding_bytes: u64,
     /// Storage bindings of one shader.
     pub max_bindings: u32,
+    /// Whether its shaders know whole numbers of 64 bits.
+    pub has_int64: bool,
 }
 
 impl AdapterFacts {
@@ -42,6 +44,7 @@ impl AdapterFacts {
             max_buffer_bytes: limits.max_buffer_size,
             max_binding_bytes: limits.max_storage_buffer_binding_size,
             max_bindings: limits.max_storage_buffers_per_shader_stage,
+            has_int64: adapter.features().contains(wgpu::Features::SHADER_INT64),
         }
     }
 
@@ -78,6 +81,8 @@ pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     facts: AdapterFacts,
+    /// Whether cells are worked on one at a time, as on all hardware.
+    cell_by_cell: bool,
     /// What the driver reported outside of any call, the first only.
     failure: Arc<Mutex<Option<String>>>,
 }
@@ -107,12 +112,27 @@ impl Gpu {
         Self::open_adapter(adapter)
     }
 
+    /// The same for testing what other adapters run: cells worked on one at a time as on hardware, also
+    /// where a software adapter would take four at once, and at most so many bytes in a binding.
+    pub fn open_like_hardware(max_binding_bytes: u64) -> Result<Arc<Self>, KernelError> {
+        let gpu = Self::open(None)?;
+        match Arc::try_unwrap(gpu) {
+            Ok(mut gpu) => {
+                gpu.cell_by_cell = true;
+                gpu.facts.max_binding_bytes = gpu.facts.max_binding_bytes.min(max_binding_bytes);
+                Ok(Arc::new(gpu))
+            }
+            Err(gpu) => Ok(gpu),
+        }
+    }
+
     fn open_adapter(adapter: &wgpu::Adapter) -> Result<Arc<Self>, KernelError> {
         let facts = AdapterFacts::of(adapter);
         let description = wgpu::DeviceDescriptor {
             label: Some("psmrt"),
             // All that the adapter has: the defaults are those of a telephone.
             required_limits: adapter.limits(),
+            required_features: adapter.features() & wgpu::Features::SHADER_INT64,
             memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         };
@@ -137,7 +157,13 @@ impl Gpu {
                 note_loss(format!("the device was lost: {message}"));
             }
         });
-        Ok(Arc::new(Gpu { device, queue, facts, failure }))
+        let cell_by_cell = !facts.is_software();
+        Ok(Arc::new(Gpu { device, queue, facts, cell_by_cell, failure }))
+    }
+
+    /// Cells that are worked on at once.
+    pub(super) fn width(&self) -> u64 {
+        if self.cell_by_cell { 1 } else { 4 }
     }
 
     /// What the adapter says about itself.

@@ -87,7 +87,7 @@ impl Kernel {
     /// taken for true where one has a velocity or a spin. The set-up must have passed its checks. Errors
     /// if the device cannot hold it.
     pub fn new(gpu: &Arc<Gpu>, setup: Setup, can_move: bool) -> Result<Self, KernelError> {
-        let layout = Layout::new(&setup.domain, gpu.facts())?;
+        let layout = Layout::new(&setup.domain, gpu.facts(), gpu.width())?;
         super::memory::check(gpu.facts(), &layout)?;
         let still = Vec3::zeros();
         let solids = match &setup.solid_phase {
@@ -402,7 +402,8 @@ impl Kernel {
     pub fn populations(&self, cells: &[usize]) -> Result<Vec<[f64; Q]>, KernelError> {
         let observe = self.pipeline(&self.observe, Work::Observe)?;
         let mut found = Vec::with_capacity(cells.len());
-        for slice in cells.chunks(SLICE) {
+        let most = usize::try_from(self.gpu.facts().max_binding_bytes).unwrap_or(usize::MAX);
+        for slice in cells.chunks(SLICE.min(most / (4 * Q)).max(1)) {
             let numbers: Vec<u32> =
                 slice.iter().map(|&cell| self.layout.place(number(cell))).collect();
             let mut list = Growing::new(&self.gpu, "list of cells")?;

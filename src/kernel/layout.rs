@@ -4,6 +4,9 @@
 //! four values as for one). So that a vector's neighbours along x are a vector too, it holds cells a
 //! quarter of the row apart: with `n = ceil(nx/4)`, the vector `q` of a row holds `q, q + n, q + 2n,
 //! q + 3n`. Where `nx` is no multiple of four the last quarter is filled up with places that are no cells.
+//! Where the adapter knows whole numbers of 64 bits a vector is read as two of those: on processors
+//! without AVX-512, Mesa 22 puts what each lane reads into its vector by way of memory, which costs some
+//! 20 cycles a piece and is most of a step.
 
 use psmrt_reference::domain::Domain;
 
@@ -31,6 +34,8 @@ pub(super) struct Layout {
     pub(super) cells: [u32; 3],
     /// Cells that are worked on at once: 1 or 4.
     pub(super) width: u32,
+    /// Whether vectors are read as two pairs of values, 64 bits each.
+    pub(super) pairs: bool,
     /// Places for cells, those that are none included.
     pub(super) places: u32,
     /// Values from one direction to the next.
@@ -41,9 +46,13 @@ pub(super) struct Layout {
 
 impl Layout {
     /// The layout for a box on an adapter. Errors if the adapter cannot hold it.
-    pub(super) fn new(domain: &Domain, adapter: &AdapterFacts) -> Result<Self, KernelError> {
+    /// `width` cells are worked on at once, 1 or 4.
+    pub(super) fn new(
+        domain: &Domain,
+        adapter: &AdapterFacts,
+        width: u64,
+    ) -> Result<Self, KernelError> {
         let [nx, ny, nz] = domain.cells().map(|n| n as u64);
-        let width = if adapter.is_software() { 4 } else { 1 };
         let places = nx.div_ceil(width) * width * ny * nz;
         let stride = padded(places);
         let largest = adapter.max_binding_bytes.min(adapter.max_buffer_bytes);
@@ -64,6 +73,7 @@ impl Layout {
         let layout = Layout {
             cells: [narrow(nx)?, narrow(ny)?, narrow(nz)?],
             width: narrow(width)?,
+            pairs: width == 4 && adapter.has_int64,
             places: narrow(places)?,
             stride: narrow(stride)?,
             per_binding: narrow(per_binding)?,

@@ -19,7 +19,7 @@ use super::numbers::literal;
 /// The populations of a shader that works on one cell at a time: WGSL functions `own` and `wrapped`, and
 /// `keep` if it writes.
 pub(super) fn access(layout: &Layout, writes: bool) -> String {
-    let mut text = bindings(layout, "f32", writes);
+    let mut text = bindings(layout, "f32", "f32", writes);
     text += "\n// The populations at a place.\nfn own(place: u32) -> array<f32, 19> {\n";
     text += "    var h: array<f32, 19>;\n";
     for a in 0..Q {
@@ -42,7 +42,8 @@ pub(super) fn access(layout: &Layout, writes: bool) -> String {
 /// The populations of a shader that works on a vector of cells at once: WGSL functions `wrapped` and
 /// `keep`.
 pub(super) fn vector_access(layout: &Layout) -> String {
-    let mut text = bindings(layout, "real", true);
+    let mut text = bindings(layout, "quad", "real", true);
+    text += if layout.pairs { UNPACKED_PAIRS } else { UNPACKED };
     text += "\n// f_a(x) = f*_a(x - c_a), all faces taken for periodic.\n";
     text +=
         "fn wrapped(x: u32, y: u32, z: u32) -> array<real, 19> {\n    var h: array<real, 19>;\n";
@@ -51,7 +52,7 @@ pub(super) fn vector_access(layout: &Layout) -> String {
         let from = std::array::from_fn(|axis| place(axis, C[a][axis]));
         let (binding, start) = layout.direction(a);
         let start = start / layout.width;
-        text += &format!("    h[{a}] = old_{binding}[{start}u + {}];\n", sum(&from));
+        text += &format!("    h[{a}] = unpacked(old_{binding}[{start}u + {}]);\n", sum(&from));
     }
     if layout.width == 4 {
         // What comes from beyond an end of the row comes from the neighbour quarter of the row.
@@ -66,16 +67,30 @@ pub(super) fn vector_access(layout: &Layout) -> String {
     text + "    return h;\n}\n" + &keep(layout, layout.width)
 }
 
-/// The populations' bindings, as arrays of `element`.
-fn bindings(layout: &Layout, element: &str, writes: bool) -> String {
+/// What is read as it is.
+const UNPACKED: &str = "fn unpacked(value: real) -> real {
+    return value;
+}
+";
+
+/// Four values that are read as two pairs.
+const UNPACKED_PAIRS: &str = "fn unpacked(pairs: vec2<u64>) -> vec4<f32> {
+    let low = vec2<u32>(u32(pairs.x), u32(pairs.y));
+    let high = vec2<u32>(u32(pairs.x >> 32u), u32(pairs.y >> 32u));
+    return bitcast<vec4<f32>>(vec4<u32>(low.x, high.x, low.y, high.y));
+}
+";
+
+/// The populations' bindings, as arrays of these elements.
+fn bindings(layout: &Layout, read: &str, written: &str, writes: bool) -> String {
     let mut text = String::new();
     for binding in 0..layout.bindings() {
         text += &format!(
-            "@group(0) @binding({binding}) var<storage, read> old_{binding}: array<{element}>;\n"
+            "@group(0) @binding({binding}) var<storage, read> old_{binding}: array<{read}>;\n"
         );
         if writes {
             text += &format!(
-                "@group(0) @binding({}) var<storage, read_write> new_{binding}: array<{element}>;\n",
+                "@group(0) @binding({}) var<storage, read_write> new_{binding}: array<{written}>;\n",
                 20 + binding
             );
         }

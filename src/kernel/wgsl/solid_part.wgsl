@@ -21,9 +21,6 @@ struct SolidPart {
 }
 
 //#if MOVING
-// (B, Σ B_s u_s) of each record; the first, number 0, is that of a cell without solids.
-@group(0) @binding(41) var<storage, read> records: array<vec4<f32>>;
-
 fn part_of(b: real, x: real, y: real, z: real) -> SolidPart {
     // ū = Σ B_s u_s / B
     let over = 1.0 / max(b, real(1e-30));
@@ -34,14 +31,16 @@ fn part_of(b: real, x: real, y: real, z: real) -> SolidPart {
 
 //#if WIDE
 // Per cell the number of its record.
-@group(0) @binding(40) var<storage, read> slots: array<vec4<u32>>;
+@group(0) @binding(40) var<storage, read> slots: array<quad>;
+// (B, Σ B_s u_s) of each record; the first, number 0, is that of a cell without solids.
+@group(0) @binding(41) var<storage, read> records: array<quad>;
 
 fn solid_part(vector: u32) -> SolidPart {
-    let slot = slots[vector];
-    let a = records[slot.x];
-    let b = records[slot.y];
-    let c = records[slot.z];
-    let d = records[slot.w];
+    let slot = bitcast<vec4<u32>>(unpacked(slots[vector]));
+    let a = unpacked(records[slot.x]);
+    let b = unpacked(records[slot.y]);
+    let c = unpacked(records[slot.z]);
+    let d = unpacked(records[slot.w]);
     return part_of(
         vec4<f32>(a.x, b.x, c.x, d.x),
         vec4<f32>(a.y, b.y, c.y, d.y),
@@ -52,6 +51,8 @@ fn solid_part(vector: u32) -> SolidPart {
 //#else
 // Per cell the number of its record.
 @group(0) @binding(40) var<storage, read> slots: array<u32>;
+// (B, Σ B_s u_s) of each record; the first, number 0, is that of a cell without solids.
+@group(0) @binding(41) var<storage, read> records: array<vec4<f32>>;
 //#if MANY
 // Of the first records, cells in which several solids meet: what Σ B_s u_s u_s is above that of one
 // solid with the mean velocity (xx, yy, zz, 0), (xy, yz, xz, 0).
@@ -79,9 +80,17 @@ fn solid_part(place: u32) -> SolidPart {
 //#end
 //#else
 // B of each cell.
-@group(0) @binding(40) var<storage, read> weights: array<real>;
+//#if WIDE
+@group(0) @binding(40) var<storage, read> weights: array<quad>;
 
-fn solid_part(number: u32) -> SolidPart {
-    return SolidPart(weights[number]);
+fn solid_part(vector: u32) -> SolidPart {
+    return SolidPart(unpacked(weights[vector]));
 }
+//#else
+@group(0) @binding(40) var<storage, read> weights: array<f32>;
+
+fn solid_part(place: u32) -> SolidPart {
+    return SolidPart(weights[place]);
+}
+//#end
 //#end
