@@ -24,7 +24,7 @@ fn holds(name: &str, budget: &mut Budget) {
     budget.spend(bench.cell_updates());
     for claim in (case.judge)(&files, &rows).unwrap() {
         let Claim { what, measured, allowed, why } = &claim;
-        println!("{name}: {what}: {measured:.3e} in {allowed:.3e?}");
+        println!("{name}: {what}: {measured:.3e} in {allowed:?}");
         assert!(claim.holds(), "{name}: {what}: {measured} is not in {allowed:?} ({why})");
     }
     if !case.scenes.is_empty() {
