@@ -101,8 +101,8 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         claims.push(Claim {
             what: format!("{engine}: the error is the wall's known slip (largest relative difference)"),
             measured: off,
-            allowed: 0.0..=if engine == EngineName::Reference.word() { 1e-6 } else { 0.05 },
-            why: "closed form by Ginzburg & d'Humieres 2003; in single precision 1e-4 of a slip of 1e-3",
+            allowed: 0.0..=if engine == EngineName::Reference.word() { 1e-5 } else { 0.05 },
+            why: "closed form by Ginzburg & d'Humieres 2003; d'Humieres' rates add errors that fall with the square of the lattice velocity (0.03 at 8 cells; ERRATA.md), and single precision 1e-4 of a slip of 1e-3",
         });
     }
     Ok(claims)

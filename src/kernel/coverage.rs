@@ -9,7 +9,7 @@ use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
 use super::layout::Layout;
-use super::numbers::single;
+use super::numbers::{count, single};
 use super::sphere::{sampled_fraction, solid_fraction};
 
 /// One cell that a solid touches.
@@ -223,11 +223,6 @@ fn weight(weighting: Weighting, sum: f64, tau: f64) -> f64 {
             epsilon * excess / (1.0 - epsilon + excess)
         }
     }
-}
-
-/// A number of things of which there are fewer than cells.
-fn count(number: usize) -> u32 {
-    u32::try_from(number).unwrap_or(u32::MAX)
 }
 
 /// The cells that one solid covers, by their numbers.

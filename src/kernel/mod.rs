@@ -9,7 +9,7 @@
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `coverage.rs`, `sphere.rs`, `solids.rs` | what the solids cover, and its tables on the device |
 //! | `wgsl/loads.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
-//! | `fluid.rs` | [`Kernel`]: steps, and what can be seen |
+//! | `fluid.rs`, `steps.rs`, `sight.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
 //!
 //! The populations are kept as they are after a collision, less their weights, direction by direction,
 //! in two copies. A step reads one copy and writes the other: 152 bytes per cell update. What is seen
@@ -29,13 +29,17 @@ mod layout;
 mod memory;
 mod numbers;
 mod pipeline;
+mod sight;
 mod solids;
 mod sphere;
+mod state;
+mod steps;
 mod streaming;
 mod watch;
 
 pub use device::{AdapterFacts, Gpu, adapters};
 pub use error::KernelError;
-pub use fluid::{Kernel, Summary};
+pub use fluid::Kernel;
+pub use sight::Summary;
 pub use sphere::{sampled_fraction, solid_fraction};
 pub use watch::KernelTimes;

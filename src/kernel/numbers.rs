@@ -11,3 +11,8 @@ pub(super) fn literal(value: f64) -> String {
     let value = single(value).clamp(f32::MIN, f32::MAX);
     if value.is_sign_negative() { format!("({value:e}f)") } else { format!("{value:e}f") }
 }
+
+/// A number of things of which there are fewer than cells, and so than 2^32.
+pub(super) fn count(number: usize) -> u32 {
+    u32::try_from(number).unwrap_or(u32::MAX)
+}

@@ -1,0 +1,132 @@
+//! What can be seen of the fluid: loads, populations, sums over the box.
+
+use std::time::Instant;
+
+use psmrt_reference::directions::Q;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::Load;
+
+use super::buffers::Growing;
+use super::compose::Work;
+use super::error::KernelError;
+use super::fluid::Kernel;
+use super::layout::Layout;
+use super::numbers::count;
+use super::pipeline::Pipeline;
+use super::steps::dispatch;
+use super::streaming::weight;
+
+/// Cells whose populations are read at once.
+const SLICE: usize = 1 << 18;
+
+impl Kernel {
+    /// Force and torque on each solid during the last step.
+    pub fn loads(&self) -> Result<Vec<Load>, KernelError> {
+        let Some(solids) = &self.solids else { return Ok(Vec::new()) };
+        let start = Instant::now();
+        let bytes = self.gpu.read(solids.loads.buffer(), 32 * u64::from(solids.solid_count))?;
+        self.watch.add(start, |times| &mut times.transfers);
+        let rows: &[[f32; 4]] = bytemuck::cast_slice(&bytes);
+        let vector = |row: &[f32; 4]| Vec3::new(row[0].into(), row[1].into(), row[2].into());
+        Ok(rows
+            .chunks_exact(2)
+            .map(|load| Load { force: vector(&load[0]), torque: vector(&load[1]) })
+            .collect())
+    }
+
+    /// Populations of the cells of the given numbers before their next collision, in their order.
+    pub fn populations(&self, cells: &[usize]) -> Result<Vec<[f64; Q]>, KernelError> {
+        let observe = self.pipeline(&self.observe, Work::Observe)?;
+        let mut found = Vec::with_capacity(cells.len());
+        let most = usize::try_from(self.gpu.facts().max_binding_bytes).unwrap_or(usize::MAX);
+        for slice in cells.chunks(SLICE.min(most / (4 * Q)).max(1)) {
+            let numbers: Vec<u32> =
+                slice.iter().map(|&cell| self.layout.place(count(cell))).collect();
+            let mut list = Growing::new(&self.gpu, "list of cells")?;
+            list.fill(&self.gpu, &numbers)?;
+            let bytes = (slice.len() * Q * 4) as u64;
+            self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
+            let count = count(slice.len());
+            self.look(observe, &list, [count, 1, u32::from(self.is_collided), 0], count)?;
+            let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
+            let values: &[f32] = bytemuck::cast_slice(&bytes);
+            found.extend(
+                values
+                    .chunks_exact(Q)
+                    .map(|h| std::array::from_fn(|a| f64::from(h[a]) + weight(a))),
+            );
+        }
+        Ok(found)
+    }
+
+    /// Runs a pipeline that reads the state into `seen`.
+    fn look(
+        &self,
+        pipeline: &Pipeline,
+        list: &Growing,
+        task: [u32; 4],
+        count: u32,
+    ) -> Result<(), KernelError> {
+        self.gpu.queue.write_buffer(&self.tasks.observed, 0, bytemuck::bytes_of(&task));
+        let group = self.bind(pipeline, &self.tasks.observed, Some(list.buffer()))?;
+        self.gpu.checked(|| {
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(pipeline.raw());
+            pass.set_bind_group(0, &group, &[]);
+            dispatch(&mut pass, count);
+            drop(pass);
+            self.gpu.queue.submit([encoder.finish()]);
+        })
+    }
+
+    /// Sums and extremes over the box.
+    pub fn summary(&self) -> Result<Summary, KernelError> {
+        let summary = self.pipeline(&self.summary, Work::Summary)?;
+        let strands = self.recipe().strands();
+        let bytes = u64::from(strands) * 32;
+        self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
+        let many = self.solids.as_ref().map_or(0, |solids| solids.many);
+        let task = [self.layout.places, 0, u32::from(self.is_collided), many];
+        self.look(summary, &self.list, task, strands)?;
+        let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
+        Ok(Summary::of(bytemuck::cast_slice(&bytes), &self.layout))
+    }
+
+    /// Total solid fraction of a cell, at most 1.
+    pub fn solid_fraction(&self, cell: usize) -> f64 {
+        self.solids.as_ref().map_or(0.0, |solids| solids.coverage.solid_fraction(count(cell)))
+    }
+}
+
+/// Sums and extremes over the box, lattice units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Summary {
+    /// Mean density.
+    pub density: f64,
+    /// Mean of the momentum before and after the next collision.
+    pub mass_flux: Vec3,
+    /// Largest `|j|/ρ`.
+    pub bare_speed: f64,
+    /// Largest `|j + G/2|/ρ`.
+    pub speed: f64,
+    /// The first cell that is broken: not finite, without density, or faster than the guard allows.
+    pub broken: Option<usize>,
+}
+
+impl Summary {
+    fn of(parts: &[[u32; 8]], layout: &Layout) -> Self {
+        let real = |bits: u32| f64::from(f32::from_bits(bits));
+        let n = layout.cells.iter().map(|&n| f64::from(n)).product::<f64>();
+        let sum = |column: usize| parts.iter().map(|part| real(part[column])).sum::<f64>();
+        let most = |column: usize| parts.iter().map(|part| real(part[column])).fold(0.0, f64::max);
+        let broken = parts.iter().map(|part| part[6]).min().filter(|&cell| cell != u32::MAX);
+        Summary {
+            density: 1.0 + sum(0) / n,
+            mass_flux: Vec3::new(sum(1), sum(2), sum(3)) / n,
+            bare_speed: most(4).sqrt(),
+            speed: most(5).sqrt(),
+            broken: broken.and_then(|place| layout.cell(place)).map(|cell| cell as usize),
+        }
+    }
+}
