@@ -122,16 +122,16 @@ fn summary(page: &Page) -> String {
 fn all_verdicts(page: &Page) -> Markup {
     html! {
         div class="wide" { table {
-            thead { tr { th { "case" } th { "claim" } th { "measured" } th { "allowed" } th { "verdict" } } }
+            thead { tr { th { "verdict" } th { "case" } th { "claim" } th { "measured" } th { "allowed" } } }
             tbody {
                 @for section in &page.sections {
                     @for verdict in &section.verdicts {
                         tr {
+                            (word(verdict.holds))
                             td { a href=(format!("#{}", section.name)) { (section.name) } }
                             td { (verdict.claim) }
                             td class="number" { (verdict.measured) }
                             td class="number" { (verdict.allowed) }
-                            (word(verdict.holds))
                         }
                     }
                 }

@@ -88,11 +88,11 @@ pub fn files(kit: &Kit) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-fn json_bytes(value: &serde_json::Value) -> Vec<u8> {
+pub(super) fn json_bytes(value: &serde_json::Value) -> Vec<u8> {
     format!("{value:#}\n").into_bytes()
 }
 
-fn npy_bytes(array: &Array) -> Vec<u8> {
+pub(super) fn npy_bytes(array: &Array) -> Vec<u8> {
     let mut bytes = Vec::new();
     // Writing to memory does not fail.
     let written = crate::output::npy::array(&mut bytes, &array.shape, array.values.iter().copied());
@@ -117,21 +117,30 @@ fn arrays(kit: &Kit, manifest: &Manifest) -> BTreeMap<String, Array> {
     arrays
 }
 
-/// Writes the kit into `folder`, which must be empty or absent. Returns the number of files and bytes.
-pub fn export(folder: &Path) -> Result<(usize, usize), FilesError> {
-    let files = files(&Kit::make()?);
+/// Writes files into `folder`, which must be empty or absent.
+pub(super) fn write_all(
+    folder: &Path,
+    files: &BTreeMap<String, Vec<u8>>,
+) -> Result<(), FilesError> {
     fs::create_dir_all(folder).map_err(|error| FilesError::io(folder, error))?;
     let mut entries = fs::read_dir(folder).map_err(|error| FilesError::io(folder, error))?;
     if entries.next().is_some() {
         return Err(FilesError::NotEmpty { path: folder.display().to_string() });
     }
-    for (name, contents) in &files {
+    for (name, contents) in files {
         let path = folder.join(name);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(|error| FilesError::io(parent, error))?;
         }
         fs::write(&path, contents).map_err(|error| FilesError::io(&path, error))?;
     }
+    Ok(())
+}
+
+/// Writes the kit into `folder`, which must be empty or absent. Returns the number of files and bytes.
+pub fn export(folder: &Path) -> Result<(usize, usize), FilesError> {
+    let files = files(&Kit::make()?);
+    write_all(folder, &files)?;
     Ok((files.len(), files.values().map(Vec::len).sum()))
 }
 

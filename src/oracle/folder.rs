@@ -1,12 +1,13 @@
 //! A candidate's answers as files.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::KIT_VERSION;
 use super::array::Array;
-use super::files::FilesError;
+use super::files::{FilesError, json_bytes, npy_bytes, write_all};
 use super::judge::Submission;
 use super::kit::Kit;
 use super::manifest::CandidateManifest;
@@ -48,6 +49,27 @@ pub fn read(kit: &Kit, folder: &Path) -> Result<Submission, FilesError> {
         }
     }
     Ok(Submission { name: manifest.name, precision: manifest.precision, order, answers, unasked })
+}
+
+/// Writes the answers of an engine into `folder`, which must be empty or absent, as [`read`] and `psmrt
+/// oracle check` take them. Answers that cannot be read are left out.
+pub fn write(kit: &Kit, submission: &Submission, folder: &Path) -> Result<(), FilesError> {
+    let manifest = CandidateManifest {
+        name: submission.name.clone(),
+        precision: submission.precision,
+        directions: Some(submission.order.directions().to_vec()),
+        kit_version: KIT_VERSION,
+    };
+    let mut files = BTreeMap::new();
+    files.insert("manifest.json".to_owned(), json_bytes(&serde_json::json!(manifest)));
+    for (solved, answers) in kit.problems.iter().zip(&submission.answers) {
+        for (name, array) in answers {
+            if let Ok(array) = array {
+                files.insert(format!("{}/{name}.npy", solved.problem.id), npy_bytes(array));
+            }
+        }
+    }
+    write_all(folder, &files)
 }
 
 fn manifest(path: &Path) -> Result<CandidateManifest, FilesError> {
