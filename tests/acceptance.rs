@@ -28,7 +28,7 @@ fn holds(name: &str, budget: &mut Budget) {
         assert!(claim.holds(), "{name}: {what}: {measured} is not in {allowed:?} ({why})");
     }
     if !case.scenes.is_empty() {
-        let found = drifts(&files.table("expected.csv").unwrap(), &rows);
+        let found = drifts(&files.table(case.rows).unwrap(), &rows);
         assert!(found.is_empty(), "{name}: look at `psmrt golden diff {name}`: {found:?}");
     }
     assert!(!(case.draw)(&files, &rows).unwrap().is_empty(), "{name} draws nothing");
@@ -65,6 +65,11 @@ fn committed_suspensions_hold_their_claims() {
 }
 
 #[test]
+fn committed_confusion_table_holds_its_claims() {
+    holds("conformance", &mut Budget::oracle(0));
+}
+
+#[test]
 fn every_case_has_its_parts_and_a_test() {
     let tests = include_str!("acceptance.rs");
     for case in CASES {
@@ -72,8 +77,7 @@ fn every_case_has_its_parts_and_a_test() {
         for scene in case.scenes {
             assert!(files.path(scene).exists(), "{}: no {scene}", case.name);
         }
-        let expected = if case.scenes.is_empty() { "study.csv" } else { "expected.csv" };
-        assert!(files.path(expected).exists(), "{}: no {expected}", case.name);
+        assert!(files.path(case.rows).exists(), "{}: no {}", case.name, case.rows);
         assert!(!case.about.is_empty() && !case.title.is_empty());
         assert!(tests.contains(&format!("holds(\"{}\"", case.name)), "{} has no test", case.name);
     }

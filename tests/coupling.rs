@@ -311,7 +311,7 @@ fn buoyancy_by_a_body_force_on_the_fluid_is_too_small_and_less_so_on_finer_grids
     let lacking = found.map(|buoyancy| 1.0 - buoyancy);
     // What is displaced is the sum of B, not the volume: cells cut by the surface, a layer about one
     // cell thick, count less, so that what lacks falls as the first order of the cell size at least.
-    // (0.42, 0.20 and 0.09.)
+    // (0.42, 0.20 and 0.08.)
     assert!(lacking[0] > 0.1 && lacking[1] < 0.6 * lacking[0] && lacking[2] < 0.75 * lacking[1]);
     assert!(lacking[2] > 0.0);
 }

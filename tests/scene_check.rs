@@ -94,7 +94,7 @@ fn damping_of_a_half() -> (f64, f64) {
 fn risky_scenes_of_grains_are_warned_of_with_a_remedy_and_a_sound_one_is_not() {
     assert!(warnings(&scene(SCENE)).is_empty(), "{:?}", warnings(&scene(SCENE)));
     for (from, to, reason, remedy) in [
-        ("-9.81]", "-9.81]\nform = \"body_force\"", "58, 80 and 88 %", "reduced"),
+        ("-9.81]", "-9.81]\nform = \"body_force\"", "58, 80 and 92 %", "reduced"),
         ("tau = 0.8", "tau = 1.6", "tau = 1.60 with grains of fewer", "time.tau"),
         ("dx = 6.25e-6", "dx = 1.25e-5", "4.0 cells across", "domain.dx"),
         ("friction = 0.3", "duration = 2e-3", "of a diameter", "contact.stiffness"),

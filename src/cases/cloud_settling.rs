@@ -20,6 +20,7 @@ pub const CASE: Case = Case {
          the profile is the claim, not the velocity itself.",
     ],
     scenes: &["scene.toml"],
+    rows: "expected.csv",
     measure,
     judge,
     draw,

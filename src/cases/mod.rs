@@ -7,6 +7,7 @@
 
 mod bench;
 mod cloud_settling;
+mod conformance;
 mod drift;
 mod poiseuille;
 mod sphere_arrays;
@@ -42,6 +43,9 @@ pub struct Case {
     pub about: &'static [&'static str],
     /// Its scene files, in its folder.
     pub scenes: &'static [&'static str],
+    /// The file in its folder with reviewed rows: the oracle's at the quick scale, or, without scenes,
+    /// those of the full form or of another program.
+    pub rows: &'static str,
     /// Runs its scenes at the quick scale. Errors if one cannot be run or does not become steady.
     pub measure: fn(&mut Bench) -> Result<Table, CaseError>,
     /// What is claimed of the rows that were measured, both engines' together.
@@ -58,6 +62,7 @@ pub const CASES: &[Case] = &[
     ten_cate::CASE,
     suspension::CASE,
     cloud_settling::CASE,
+    conformance::CASE,
 ];
 
 /// A claim about one number.

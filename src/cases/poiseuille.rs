@@ -17,6 +17,7 @@ pub const CASE: Case = Case {
          known in closed form (Ginzburg & d'Humieres 2003) and falls with the square of the cell size.",
     ],
     scenes: &["scene.toml", "dhumieres.toml"],
+    rows: "expected.csv",
     measure,
     judge,
     draw,

@@ -24,6 +24,7 @@ pub const CASE: Case = Case {
          operators at the full scale.",
     ],
     scenes: &["scene.toml"],
+    rows: "expected.csv",
     measure,
     judge,
     draw,

@@ -16,6 +16,7 @@ pub const CASE: Case = Case {
          tests/stokes_settling.rs shows the second order from 4 to 8.",
     ],
     scenes: &["scene.toml"],
+    rows: "expected.csv",
     measure,
     judge,
     draw,

@@ -20,6 +20,7 @@ pub const CASE: Case = Case {
          test` repeats three placements.",
     ],
     scenes: &[],
+    rows: "study.csv",
     measure,
     judge,
     draw,
@@ -33,7 +34,7 @@ const JUDGED: [(&str, &str); 5] =
 
 /// The quick form is the test `tests/suspension.rs`; here its committed full form is judged.
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
-    bench.literature("suspension", "study.csv")
+    bench.literature(CASE.name, CASE.rows)
 }
 
 /// Solid fraction, and the velocity of an infinite suspension from each placement.

@@ -90,6 +90,12 @@ impl Table {
         Ok(self.numbers(x)?.into_iter().zip(self.numbers(y)?).collect())
     }
 
+    /// Pairs of words of two columns.
+    pub fn words(&self, one: &str, two: &str) -> Result<Vec<(&str, &str)>, CaseError> {
+        let (one, two) = (self.column(one)?, self.column(two)?);
+        Ok(self.rows.iter().map(|row| (row[one].as_str(), row[two].as_str())).collect())
+    }
+
     /// The different values of a column, in the order in which they first stand there.
     pub fn values(&self, name: &str) -> Result<Vec<String>, CaseError> {
         let column = self.column(name)?;

@@ -17,6 +17,7 @@ pub const CASE: Case = Case {
          falls.csv); `cargo test` repeats the fastest.",
     ],
     scenes: &[],
+    rows: "study.csv",
     measure,
     judge,
     draw,
@@ -26,7 +27,7 @@ const CASES: [(&str, &str); 4] = [("E1", "1.5"), ("E2", "4.1"), ("E3", "11.6"), 
 
 /// The quick form is the test `tests/ten_cate.rs`; here its committed full form is judged.
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
-    bench.literature("ten_cate", "study.csv")
+    bench.literature(CASE.name, CASE.rows)
 }
 
 fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {

@@ -46,12 +46,12 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
     let mut differing = 0;
     for case in cases {
         let golden = Golden::of(case, &request.golden);
-        let path = golden.path("expected.csv");
+        let path = golden.path(case.rows);
         let mut bench = Bench::new(&request.golden, None, |_| {});
         let new = bench.measure(case)?;
-        let old = if path.exists() { Some(golden.table("expected.csv")?) } else { None };
+        let old = if path.exists() { Some(golden.table(case.rows)?) } else { None };
         match &old {
-            None => say(&format!("{}: no expected.csv yet", case.name)),
+            None => say(&format!("{}: no {} yet", case.name, case.rows)),
             Some(old) => {
                 let found = drifts(old, &new);
                 say(&format!("{}: {} values differ", case.name, found.len()));

@@ -172,7 +172,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     };
     if let Some(Gravity::OnFluidToo { .. }) = part.settings.gravity {
         let reason = "gravity as a body force: the fluid displaced is the sum of the weights B, so that \
-                      the buoyancy is only 58, 80 and 88 % of V g at 4, 8 and 12 cells per diameter";
+                      the buoyancy is only 58, 80 and 92 % of V g at 4, 8 and 16 cells per diameter";
         warn(reason.to_owned(), "use `form = \"reduced\"`, with which hydrostatics is exact");
     } else if scene.setup.body_force.is_some() {
         let reason = "a body force on the fluid does not push the grains as the pressure gradient that \
