@@ -88,9 +88,9 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             claims.push(Claim {
                 what: format!("{engine}: 9 spheres, Re about {reynolds}: psi over Beetstra et al."),
                 measured: ratio,
-                allowed: 0.85..=1.15,
-                why: "beds scatter about any law by 10 to 15 %, one of nine spheres no less; at 8 cells and tau = 0.51 \
-                      the grid is worth another 5 % (the ordered bed, below)",
+                allowed: 0.8..=1.2,
+                why: "beds scatter about any law by 10 to 15 %, one of nine spheres no less; particle-resolved laws differ by \
+                      15 % at Re = 30; at 8 cells and tau = 0.51 the grid is worth another 5 %",
             });
         }
         let slow = |collision: &str| {

@@ -21,7 +21,7 @@ pub const CASE: Case = Case {
          numbers the drag in open water is known to 0.1 % (axisymmetric Navier-Stokes, computed for this project); \
          White's formula, which the paper compares with, is itself 9 % high at Re = 100. What the box adds is \
          found by varying its width (study.csv) and taken off.",
-        "Steady: the force on the sphere changes by less than 3e-4 of itself (study: 3e-5) in three rows in a row; a \
+        "Steady: the force on the sphere changes by less than 3e-4 of itself (study: 3e-5 below 12 cells) in three rows in a row; a \
          row is a third of the time in which a wave as long as the box is wide dies down, or a tenth of that in \
          which the stream passes through. tau is the same on all grids of a Reynolds number and so near to 1/2 \
          (0.7 to 0.51) that the inlet's velocity is below 0.09 cells per step. Quick rows have 4 and 6 cells \
