@@ -18,17 +18,19 @@ pub const CASE: Case = Case {
     ],
     scenes: &["scene.toml", "dhumieres.toml"],
     rows: "expected.csv",
+    full: "cargo run --release -- report --full --case poiseuille goes on to 128 cells; minutes",
     measure,
     judge,
     draw,
 };
 
 const CELLS: [u32; 3] = [8, 16, 32];
+const FULL_CELLS: [u32; 5] = [8, 16, 32, 64, 128];
 
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     let mut table = Table::new(&["engine", "rates", "cells_across", "relative_l2", "slip_l2"]);
     for (rates, scene) in [("magic", "scene.toml"), ("dhumieres", "dhumieres.toml")] {
-        for cells in CELLS {
+        for &cells in if bench.is_full() { &FULL_CELLS[..] } else { &CELLS } {
             let dx = 1e-3 / f64::from(cells);
             let changes = [
                 format!("domain.dx={dx:e}"),
