@@ -5,13 +5,21 @@
 //! ([`Case::draw`]). `golden/<case>/expected.csv` keeps the rows of the oracle, reviewed, against drift.
 //! Full-scale results are committed beside it with the command that made them.
 
+mod bed_laws;
 mod bench;
 mod cloud_settling;
 mod conformance;
 mod drift;
+mod duct;
 mod packed_bed;
 mod poiseuille;
+mod seepage;
+mod seepage_figures;
+mod seepage_study;
 mod sphere_arrays;
+mod sphere_drag;
+mod sphere_drag_figures;
+mod sphere_drag_study;
 mod steadiness;
 mod stokes_settling;
 mod stream;
@@ -33,6 +41,7 @@ use crate::kernel::KernelError;
 use crate::run::RunError;
 use crate::scene::SceneError;
 
+pub use bed_laws::{BED_LAWS, BedLaw};
 pub use bench::{Bench, EngineName, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use packed_bed::{Bed, Packing};
@@ -67,7 +76,10 @@ pub struct Case {
 /// All cases, in the order of the report.
 pub const CASES: &[Case] = &[
     poiseuille::CASE,
+    duct::CASE,
     sphere_arrays::CASE,
+    sphere_drag::CASE,
+    seepage::CASE,
     stokes_settling::CASE,
     ten_cate::CASE,
     suspension::CASE,

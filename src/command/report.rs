@@ -14,7 +14,9 @@ use serde_json::json;
 use super::execute::{interruption, say};
 use super::progress::Progress;
 use super::{CommandError, info, write};
-use crate::cases::{Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Table};
+use crate::cases::{
+    Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Settled, Table, steadiness,
+};
 use crate::kernel::{Gpu, adapters};
 use crate::output::atomic;
 
@@ -148,6 +150,7 @@ fn section(
 ) -> Result<Section, CommandError> {
     let golden = Golden::of(case, &request.golden);
     let mut rows = Table::default();
+    let (mut steady, mut settled) = (Vec::new(), Table::new(&SETTLED));
     for bench in benches {
         // What is judged from committed results is the same on every engine.
         if case.scenes.is_empty() && bench.engine_name() != EngineName::Reference {
@@ -165,7 +168,12 @@ fn section(
                 format!("{:.1}", updates as f64 / seconds / 1e6),
             ]);
         }
+        let (engine, runs) = (bench.engine_name().word(), bench.settled());
+        steady.extend(steadiness(engine, &runs));
+        runs.iter().for_each(|run| settled.add(settled_row(engine, run)));
     }
+    let mut claims = (case.judge)(&golden, &rows)?;
+    claims.extend(steady);
     let figures = (case.draw)(&golden, &rows)?;
     for (number, figure) in figures.iter().enumerate() {
         let path = request.out.join(format!("{}_{}.svg", case.name, number + 1));
@@ -178,17 +186,31 @@ fn section(
         name: case.name.to_owned(),
         title: case.title.to_owned(),
         about: case.about.iter().map(|&text| text.to_owned()).collect(),
-        verdicts: (case.judge)(&golden, &rows)?.iter().map(verdict).collect(),
+        verdicts: claims.iter().map(verdict).collect(),
         figures,
-        tables: vec![DataTable {
-            caption: "What was measured".to_owned(),
-            columns: rows.columns,
-            rows: rows.rows,
-        }],
+        tables: [("What was measured", rows), ("How steady the runs were", settled)]
+            .into_iter()
+            .filter(|(_, table)| !table.rows.is_empty())
+            .map(|(caption, Table { columns, rows })| DataTable {
+                caption: caption.to_owned(),
+                columns,
+                rows,
+            })
+            .collect(),
         scenes: case.scenes.iter().map(|scene| format!("golden/{}/{scene}", case.name)).collect(),
         command: format!("cargo run --release -- report --case {}", case.name),
         full: case.full.to_owned(),
     })
+}
+
+/// Columns of the table of steady runs: relative changes of the column that the scene names.
+const SETTLED: [&str; 6] =
+    ["engine", "run", "steps", "tolerance", "change in the last window", "still to go"];
+
+fn settled_row(engine: &str, run: &Settled) -> Vec<String> {
+    let Settled { run, steps, tolerance, change, left } = run;
+    let numbers = [tolerance, change, left].map(|value| format!("{value:.1e}"));
+    [vec![engine.to_owned(), run.clone(), steps.to_string()], numbers.to_vec()].concat()
 }
 
 fn verdict(claim: &Claim) -> Verdict {
