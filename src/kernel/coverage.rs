@@ -8,14 +8,13 @@ use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
-use super::layout::Layout;
 use super::numbers::{count, single};
 use super::sphere::{sampled_fraction, solid_fraction};
 
 /// One cell that a solid touches.
 #[derive(Clone, Copy, Debug)]
 struct Touch {
-    place: u32,
+    cell: u32,
     epsilon: f64,
     /// From the solid's centre, or its image, to the centre of the cell.
     arm: Vec3,
@@ -31,12 +30,11 @@ struct Cover {
 /// What the solids cover.
 #[derive(Clone, Debug)]
 pub(super) struct Coverage {
-    layout: Layout,
     covers: Vec<Cover>,
-    /// Per place the number of its record, counted from 1; 0 for none.
+    /// Per cell the number of its record, counted from 1; 0 for none.
     slots: Vec<u32>,
-    /// The place of each record.
-    places: Vec<u32>,
+    /// The cell of each record.
+    cells: Vec<u32>,
     /// The sums of each record.
     sums: Vec<Sums>,
     /// Records in which several solids meet; they come first.
@@ -65,7 +63,7 @@ pub(super) struct Tables {
     /// Two rows for each record in which several solids meet: what `Σ B_s u_s u_s` is above that of the
     /// mean velocity.
     pub(super) excess: Vec<[f32; 4]>,
-    /// For each share, solid by solid: place, solid, and the bits of `B_s` and the arm.
+    /// For each share, solid by solid: cell, solid, and the bits of `B_s` and the arm.
     pub(super) shares: Vec<[u32; 6]>,
     /// First share of each solid, and the number of all.
     pub(super) starts: Vec<u32>,
@@ -74,12 +72,11 @@ pub(super) struct Tables {
 }
 
 impl Coverage {
-    pub(super) fn new(layout: Layout) -> Self {
+    pub(super) fn new(cell_count: u32) -> Self {
         Coverage {
-            layout,
             covers: Vec::new(),
-            slots: vec![0; layout.places as usize],
-            places: Vec::new(),
+            slots: vec![0; cell_count as usize],
+            cells: Vec::new(),
             sums: Vec::new(),
             many: 0,
         }
@@ -88,33 +85,29 @@ impl Coverage {
     /// Lists again what the solids cover that have moved since, and sums up each cell.
     pub(super) fn update(&mut self, domain: &Domain, phase: &SolidPhase) {
         self.covers.resize_with(phase.solids.len(), Cover::default);
-        let layout = self.layout;
         self.covers.par_iter_mut().zip(&phase.solids).for_each(|(cover, solid)| {
             if cover.centre != Some(solid.centre) {
                 cover.centre = Some(solid.centre);
                 cover.touches.clear();
                 list(domain, solid, phase.coverage, &mut cover.touches);
-                for touch in &mut cover.touches {
-                    touch.place = layout.place(touch.place);
-                }
             }
         });
         self.sum_up(&phase.solids);
     }
 
     fn sum_up(&mut self, solids: &[Solid]) {
-        for &place in &self.places {
-            self.slots[place as usize] = 0;
+        for &cell in &self.cells {
+            self.slots[cell as usize] = 0;
         }
-        self.places.clear();
+        self.cells.clear();
         self.sums.clear();
         for (cover, solid) in self.covers.iter().zip(solids) {
             for touch in &cover.touches {
-                let slot = &mut self.slots[touch.place as usize];
+                let slot = &mut self.slots[touch.cell as usize];
                 if *slot == 0 {
-                    self.places.push(touch.place);
+                    self.cells.push(touch.cell);
                     self.sums.push(Sums::default());
-                    *slot = count(self.places.len());
+                    *slot = count(self.cells.len());
                 }
                 let u = solid.velocity_at(&touch.arm);
                 let (sums, epsilon) = (&mut self.sums[*slot as usize - 1], touch.epsilon);
@@ -131,12 +124,12 @@ impl Coverage {
     /// Renumbers the records so that those of several solids come first.
     fn put_shared_cells_first(&mut self) {
         self.many = 0;
-        for record in 0..self.places.len() {
+        for record in 0..self.cells.len() {
             if self.sums[record].shares > 1 {
-                self.places.swap(record, self.many);
+                self.cells.swap(record, self.many);
                 self.sums.swap(record, self.many);
-                self.slots[self.places[record] as usize] = count(record + 1);
-                self.slots[self.places[self.many] as usize] = count(self.many + 1);
+                self.slots[self.cells[record] as usize] = count(record + 1);
+                self.slots[self.cells[self.many] as usize] = count(self.many + 1);
                 self.many += 1;
             }
         }
@@ -144,15 +137,15 @@ impl Coverage {
 
     /// Total solid fraction of a cell, at most 1.
     pub(super) fn solid_fraction(&self, cell: u32) -> f64 {
-        match self.slots[self.layout.place(cell) as usize] {
+        match self.slots[cell as usize] {
             0 => 0.0,
             slot => self.sums[slot as usize - 1].epsilon.min(1.0),
         }
     }
 
-    /// The places of the cells that solids touch; those in which several meet come first.
-    pub(super) fn places(&self) -> &[u32] {
-        &self.places
+    /// The cells of the cells that solids touch; those in which several meet come first.
+    pub(super) fn cells(&self) -> &[u32] {
+        &self.cells
     }
 
     /// The number of cells in which several solids meet.
@@ -160,16 +153,16 @@ impl Coverage {
         self.many
     }
 
-    /// Per place the number of its record, 0 for none.
+    /// Per cell the number of its record, 0 for none.
     pub(super) fn slots(&self) -> &[u32] {
         &self.slots
     }
 
-    /// The weight `B` at each place.
+    /// The weight `B` at each cell.
     pub(super) fn weights(&self, weighting: Weighting, tau: f64) -> Vec<f32> {
         let mut weights = vec![0.0; self.slots.len()];
-        for (&place, sums) in self.places.iter().zip(&self.sums) {
-            weights[place as usize] = single(weight(weighting, sums.epsilon, tau));
+        for (&cell, sums) in self.cells.iter().zip(&self.sums) {
+            weights[cell as usize] = single(weight(weighting, sums.epsilon, tau));
         }
         weights
     }
@@ -196,10 +189,10 @@ impl Coverage {
         tables.starts.push(0);
         for (solid, (cover, motion)) in self.covers.iter().zip(&phase.solids).enumerate() {
             for touch in &cover.touches {
-                let sums = &self.sums[self.slots[touch.place as usize] as usize - 1];
+                let sums = &self.sums[self.slots[touch.cell as usize] as usize - 1];
                 let numbers = row(factor(sums) * touch.epsilon, touch.arm).map(f32::to_bits);
                 let [w, x, y, z] = numbers;
-                tables.shares.push([touch.place, count(solid), w, x, y, z]);
+                tables.shares.push([touch.cell, count(solid), w, x, y, z]);
             }
             tables.starts.push(count(tables.shares.len()));
             tables.motions.push(row(0.0, motion.velocity));
@@ -231,7 +224,7 @@ fn list(domain: &Domain, solid: &Solid, rule: CoverageRule, touches: &mut Vec<To
         Shape::Cells { fractions } => {
             for &(cell, epsilon) in fractions.iter().filter(|(_, epsilon)| *epsilon > 0.0) {
                 let arm = domain.centre(domain.coordinates(cell)) - solid.centre;
-                touches.push(Touch { place: count(cell), epsilon, arm });
+                touches.push(Touch { cell: count(cell), epsilon, arm });
             }
         }
         Shape::Sphere { radius } => list_sphere(domain, &solid.centre, *radius, rule, touches),
@@ -259,7 +252,7 @@ fn list_sphere(
                     CoverageRule::Sampled { n } => sampled_fraction(from_cell, radius, n),
                 };
                 if epsilon > 0.0 {
-                    touches.push(Touch { place: count(domain.index(inside)), epsilon, arm });
+                    touches.push(Touch { cell: count(domain.index(inside)), epsilon, arm });
                 }
             }
         }

@@ -9,12 +9,13 @@ use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::Solid;
-use wgpu::BufferUsages;
+use wgpu::{BufferUsages, TextureFormat};
 
-use super::buffers::{Growing, STORAGE};
+use super::buffers::Growing;
 use super::compose::{Recipe, SolidData, Work};
 use super::device::Gpu;
 use super::error::KernelError;
+use super::field::Field;
 use super::layout::Layout;
 use super::numbers::{count, single};
 use super::pipeline::Pipeline;
@@ -29,7 +30,7 @@ pub struct Kernel {
     pub(super) setup: Setup,
     pub(super) layout: Layout,
     /// Two copies of the populations; a step reads one and writes the other.
-    pub(super) copies: [Vec<wgpu::Buffer>; 2],
+    pub(super) copies: [Vec<Field>; 2],
     /// The copy that holds the state.
     pub(super) current: usize,
     /// Whether the state is that after a collision (as from the first step on) or before it.
@@ -80,7 +81,7 @@ impl Kernel {
     /// taken for true where one has a velocity or a spin. The set-up must have passed its checks. Errors
     /// if the device cannot hold it.
     pub fn new(gpu: &Arc<Gpu>, setup: Setup, can_move: bool) -> Result<Self, KernelError> {
-        let layout = Layout::new(&setup.domain, gpu.facts(), gpu.width())?;
+        let layout = Layout::new(&setup.domain, gpu.facts())?;
         super::memory::check(gpu.facts(), &layout)?;
         let still = Vec3::zeros();
         let solids = match &setup.solid_phase {
@@ -98,7 +99,10 @@ impl Kernel {
         let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids })?;
         let face_cells = recipe.face_cells();
         let copy = || {
-            let make = |binding| gpu.buffer("populations", layout.bytes(binding), STORAGE);
+            let make = |binding| {
+                let directions = layout.directions(binding);
+                Field::new(gpu, layout, "populations", directions, TextureFormat::R32Float)
+            };
             (0..layout.bindings()).map(make).collect::<Result<Vec<_>, _>>()
         };
         let mut kernel = Kernel {
@@ -195,11 +199,8 @@ impl Kernel {
     fn start(&mut self, row: impl Fn(usize) -> Vec<f32>) -> Result<(), KernelError> {
         for a in 0..Q {
             let (binding, start) = self.layout.direction(a);
-            let buffer = &self.copies[self.current][binding as usize];
-            let row = self.layout.placed(&row(a));
-            self.gpu.queue.write_buffer(buffer, 4 * u64::from(start), bytemuck::cast_slice(&row));
-            // Uploads wait in host memory until they are submitted.
-            self.gpu.queue.submit([]);
+            let field = &self.copies[self.current][binding as usize];
+            field.write(&self.gpu, start, bytemuck::cast_slice(&row(a)));
         }
         self.is_collided = false;
         self.gpu.wait()
@@ -227,7 +228,7 @@ impl Kernel {
         let mut many = 0;
         if let Some(solids) = &self.solids {
             many = solids.many;
-            let listed = solids.listed_places().iter();
+            let listed = solids.listed_cells().iter();
             if self.face_cells.is_empty() {
                 cells.extend(listed);
             } else {
@@ -241,7 +242,7 @@ impl Kernel {
         self.list.fill(&self.gpu, &cells)?;
         let listed = [self.list_count, 1, 1, many];
         self.gpu.queue.write_buffer(&self.tasks.listed, 0, bytemuck::bytes_of(&listed));
-        let all = [self.layout.places, 0, u32::from(self.is_collided), many];
+        let all = [self.layout.count, 0, u32::from(self.is_collided), many];
         self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&all));
         Ok(())
     }

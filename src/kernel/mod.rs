@@ -3,7 +3,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `device.rs` | adapters, and the device opened on one |
-//! | `layout.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
+//! | `layout.rs`, `field.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `wgsl/single.wgsl`, `wgsl/moments.wgsl` | collision, with one relaxation time and with many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
@@ -24,6 +24,7 @@ mod compose;
 mod coverage;
 mod device;
 mod error;
+mod field;
 mod fluid;
 mod layout;
 mod memory;

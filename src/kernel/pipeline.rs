@@ -70,18 +70,15 @@ impl Pipeline {
         &self.slots
     }
 
-    /// Binds buffers, whole, by the numbers of their bindings.
+    /// Binds buffers and textures, whole, by the numbers of their bindings.
     pub(super) fn bind(
         &self,
         gpu: &Gpu,
-        buffers: &[(u32, &wgpu::Buffer)],
+        resources: Vec<(u32, wgpu::BindingResource<'_>)>,
     ) -> Result<wgpu::BindGroup, KernelError> {
-        let entries: Vec<wgpu::BindGroupEntry<'_>> = buffers
-            .iter()
-            .map(|&(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = resources
+            .into_iter()
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
         gpu.checked(|| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {

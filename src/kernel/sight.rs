@@ -40,8 +40,7 @@ impl Kernel {
         let mut found = Vec::with_capacity(cells.len());
         let most = usize::try_from(self.gpu.facts().max_binding_bytes).unwrap_or(usize::MAX);
         for slice in cells.chunks(SLICE.min(most / (4 * Q)).max(1)) {
-            let numbers: Vec<u32> =
-                slice.iter().map(|&cell| self.layout.place(count(cell))).collect();
+            let numbers: Vec<u32> = slice.iter().map(|&cell| count(cell)).collect();
             let mut list = Growing::new(&self.gpu, "list of cells")?;
             list.fill(&self.gpu, &numbers)?;
             let bytes = (slice.len() * Q * 4) as u64;
@@ -87,7 +86,7 @@ impl Kernel {
         let bytes = u64::from(strands) * 32;
         self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
         let many = self.solids.as_ref().map_or(0, |solids| solids.many);
-        let task = [self.layout.places, 0, u32::from(self.is_collided), many];
+        let task = [self.layout.count, 0, u32::from(self.is_collided), many];
         self.look(summary, &self.list, task, strands)?;
         let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
         Ok(Summary::of(bytemuck::cast_slice(&bytes), &self.layout))
@@ -126,7 +125,7 @@ impl Summary {
             mass_flux: Vec3::new(sum(1), sum(2), sum(3)) / n,
             bare_speed: most(4).sqrt(),
             speed: most(5).sqrt(),
-            broken: broken.and_then(|place| layout.cell(place)).map(|cell| cell as usize),
+            broken: broken.map(|cell| cell as usize),
         }
     }
 }

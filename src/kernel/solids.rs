@@ -2,12 +2,14 @@
 
 use psmrt_reference::domain::Domain;
 use psmrt_reference::setup::SolidPhase;
+use wgpu::TextureFormat;
 
 use super::buffers::Growing;
 use super::compose::SolidData;
 use super::coverage::Coverage;
 use super::device::Gpu;
 use super::error::KernelError;
+use super::field::Field;
 use super::layout::Layout;
 
 /// Above this share of covered cells the solid part is worked out in every cell; below it, only in the
@@ -22,7 +24,7 @@ pub(super) struct Solids {
     /// Whether the step of all cells has the solids in it.
     pub(super) in_every_cell: bool,
     /// Weights of all cells (fixed) or numbers of their records (moving).
-    pub(super) per_cell: Growing,
+    pub(super) per_cell: Field,
     pub(super) records: Growing,
     pub(super) excess: Growing,
     pub(super) shares: Growing,
@@ -47,11 +49,16 @@ impl Solids {
         can_move: bool,
     ) -> Result<Self, KernelError> {
         let buffer = |label| Growing::new(gpu, label);
+        let (data, format) = if can_move {
+            (SolidData::Moving, TextureFormat::R32Uint)
+        } else {
+            (SolidData::Fixed, TextureFormat::R32Float)
+        };
         let mut solids = Solids {
-            data: if can_move { SolidData::Moving } else { SolidData::Fixed },
-            coverage: Coverage::new(layout),
+            data,
+            coverage: Coverage::new(layout.count),
             in_every_cell: false,
-            per_cell: buffer("solid weights of cells")?,
+            per_cell: Field::new(gpu, layout, "solids of cells", 1, format)?,
             records: buffer("records of covered cells")?,
             excess: buffer("records of cells in which solids meet")?,
             shares: buffer("shares of solids")?,
@@ -65,7 +72,7 @@ impl Solids {
         };
         solids.list(domain, phase);
         solids.upload(gpu, phase, tau)?;
-        let covered = solids.coverage.places().len() as f64 / domain.cell_count() as f64;
+        let covered = solids.coverage.cells().len() as f64 / domain.cell_count() as f64;
         solids.in_every_cell = covered > DENSE;
         Ok(solids)
     }
@@ -85,12 +92,13 @@ impl Solids {
         let tables = self.coverage.tables(phase, tau);
         match self.data {
             SolidData::Moving => {
-                self.per_cell.fill(gpu, self.coverage.slots())?;
+                self.per_cell.write(gpu, 0, bytemuck::cast_slice(self.coverage.slots()));
                 self.records.fill(gpu, &tables.records)?;
                 self.excess.fill(gpu, &tables.excess)?;
             }
             SolidData::Fixed | SolidData::None => {
-                self.per_cell.fill(gpu, &self.coverage.weights(phase.weighting, tau))?;
+                let weights = self.coverage.weights(phase.weighting, tau);
+                self.per_cell.write(gpu, 0, bytemuck::cast_slice(&weights));
             }
         }
         self.shares.fill(gpu, &tables.shares)?;
@@ -105,11 +113,11 @@ impl Solids {
         Ok(())
     }
 
-    /// The places that must be listed since the step of all cells does not do them right.
-    pub(super) fn listed_places(&self) -> &[u32] {
+    /// The cells that must be listed since the step of all cells does not do them right.
+    pub(super) fn listed_cells(&self) -> &[u32] {
         match (self.in_every_cell, self.data) {
-            (false, _) => self.coverage.places(),
-            (true, SolidData::Moving) => &self.coverage.places()[..self.coverage.many()],
+            (false, _) => self.coverage.cells(),
+            (true, SolidData::Moving) => &self.coverage.cells()[..self.coverage.many()],
             (true, _) => &[],
         }
     }

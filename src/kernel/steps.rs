@@ -2,6 +2,7 @@
 
 use super::compose::{ROW, SolidData, Work};
 use super::error::KernelError;
+use super::field::Field;
 use super::fluid::Kernel;
 use super::pipeline::{Pipeline, Slot};
 
@@ -18,7 +19,7 @@ impl Kernel {
             left -= 1;
             self.first_step(with_loads && left == 0)?;
         }
-        let per_submission = (SUBMISSION / u64::from(self.layout.places)).max(1);
+        let per_submission = (SUBMISSION / u64::from(self.layout.count)).max(1);
         while left > 0 {
             let now = left.min(per_submission);
             left -= now;
@@ -32,7 +33,7 @@ impl Kernel {
 
     /// The first step: the populations are there before their collision.
     fn first_step(&mut self, with_loads: bool) -> Result<(), KernelError> {
-        let task = [self.layout.places, 0, 0, self.solids.as_ref().map_or(0, |solids| solids.many)];
+        let task = [self.layout.count, 0, 0, self.solids.as_ref().map_or(0, |solids| solids.many)];
         self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&task));
         if let Some(solids) = &self.solids {
             let task = [solids.share_count, 1, 0, solids.many];
@@ -45,7 +46,7 @@ impl Kernel {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(listed.raw());
             pass.set_bind_group(0, &group, &[]);
-            dispatch(&mut pass, self.layout.places);
+            dispatch(&mut pass, self.layout.count);
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
@@ -75,7 +76,7 @@ impl Kernel {
                 listed.push(self.bind_from(from, pipeline, Some(&self.tasks.listed), None)?);
             }
         }
-        let (vectors, [_, ny, nz]) = (self.layout.vectors(), self.layout.cells);
+        let [nx, ny, nz] = self.layout.cells;
         let [along, across] = self.recipe().workgroup();
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
@@ -84,7 +85,7 @@ impl Kernel {
             for _ in 0..steps {
                 pass.set_pipeline(self.step.raw());
                 pass.set_bind_group(0, &all[parity], &[]);
-                pass.dispatch_workgroups(vectors.div_ceil(along), ny.div_ceil(across), nz);
+                pass.dispatch_workgroups(nx.div_ceil(along), ny.div_ceil(across), nz);
                 if let Some(pipeline) = list_pipeline {
                     pass.set_pipeline(pipeline.raw());
                     pass.set_bind_group(0, &listed[parity], &[]);
@@ -118,11 +119,11 @@ impl Kernel {
         let first = self.bind_from(from, impulses, Some(&self.tasks.shares), None)?;
         let second = gather.bind(
             &self.gpu,
-            &[
-                (0, solids.shares.buffer()),
-                (1, solids.pushes.buffer()),
-                (2, solids.starts.buffer()),
-                (3, solids.loads.buffer()),
+            vec![
+                (0, solids.shares.resource()),
+                (1, solids.pushes.resource()),
+                (2, solids.starts.resource()),
+                (3, solids.loads.resource()),
             ],
         )?;
         self.gpu.checked(|| {
@@ -158,37 +159,41 @@ impl Kernel {
         task: Option<&wgpu::Buffer>,
         list: Option<&wgpu::Buffer>,
     ) -> Result<wgpu::BindGroup, KernelError> {
-        let mut bindings: Vec<(u32, &wgpu::Buffer)> = Vec::new();
+        let mut bindings: Vec<(u32, wgpu::BindingResource<'_>)> = Vec::new();
         let seen = self.seen.borrow();
+        let fields = |copy: usize| self.copies[copy].iter().map(Field::resource);
         for slot in pipeline.slots() {
             match slot {
-                Slot::Old => bindings.extend((0..).zip(&self.copies[from])),
-                Slot::New => bindings.extend((20..).zip(&self.copies[1 - from])),
-                Slot::Task => bindings.extend(task.map(|task| (50, task))),
-                Slot::List => bindings.push((51, list.unwrap_or_else(|| self.list.buffer()))),
-                Slot::Seen => bindings.push((60, seen.buffer())),
+                Slot::Old => bindings.extend((0..).zip(fields(from))),
+                Slot::New => bindings.extend((20..).zip(fields(1 - from))),
+                Slot::Task => bindings.extend(task.map(|task| (50, task.as_entire_binding()))),
+                Slot::List => {
+                    let list = list.unwrap_or_else(|| self.list.buffer());
+                    bindings.push((51, list.as_entire_binding()));
+                }
+                Slot::Seen => bindings.push((60, seen.resource())),
                 Slot::Solids => {
                     let Some(solids) = &self.solids else { continue };
-                    bindings.push((40, solids.per_cell.buffer()));
+                    bindings.push((40, solids.per_cell.resource()));
                     if solids.data == SolidData::Moving {
-                        bindings.push((41, solids.records.buffer()));
+                        bindings.push((41, solids.records.resource()));
                     }
                 }
                 Slot::Excess => {
                     let Some(solids) = &self.solids else { continue };
                     if solids.data == SolidData::Moving {
-                        bindings.push((42, solids.excess.buffer()));
+                        bindings.push((42, solids.excess.resource()));
                     }
                 }
                 Slot::Shares => {
                     let Some(solids) = &self.solids else { continue };
-                    bindings.push((60, solids.shares.buffer()));
-                    bindings.push((61, solids.pushes.buffer()));
-                    bindings.push((62, solids.motions.buffer()));
+                    bindings.push((60, solids.shares.resource()));
+                    bindings.push((61, solids.pushes.resource()));
+                    bindings.push((62, solids.motions.resource()));
                 }
             }
         }
-        pipeline.bind(&self.gpu, &bindings)
+        pipeline.bind(&self.gpu, bindings)
     }
 }
 

@@ -2,7 +2,7 @@
 // a tree. The order of the sums depends on nothing but the list, so that two runs give the same bits.
 
 struct Share {
-    place: u32,
+    cell: u32,
     solid: u32,
     weight: f32,
     arm_x: f32,

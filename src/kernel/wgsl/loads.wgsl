@@ -6,7 +6,7 @@
 // the same order.
 
 struct Share {
-    place: u32,
+    cell: u32,
     // Number of the solid
     solid: u32,
     // B_s
@@ -30,7 +30,7 @@ fn impulses(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let share = shares[number];
-    let h = observed(share.place);
+    let h = observed(coordinates(share.cell));
     let rho = 1.0 + sum(h);
     let arm = vec3<f32>(share.arm_x, share.arm_y, share.arm_z);
     // u_s = U + ω × r

@@ -6,14 +6,11 @@ fn step_listed(@builtin(global_invocation_id) id: vec3<u32>) {
     if (number >= task.count) {
         return;
     }
-    let here = listed(number);
-    if (!is_cell(here)) {
-        return;
-    }
-    let h = observed(here);
+    let at = coordinates(listed(number));
+    let h = observed(at);
 //#if SOLIDS
-    keep(here, collided(h, solid_part(here)));
+    keep(at.x, at.y, at.z, collided(h, solid_part(at.x, at.y, at.z)));
 //#else
-    keep(here, collided(h));
+    keep(at.x, at.y, at.z, collided(h));
 //#end
 }
