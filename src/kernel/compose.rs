@@ -44,15 +44,18 @@ pub(super) enum Work {
     Step {
         /// Whether the solids are in it.
         with_solids: bool,
+        /// Whether it keeps what the loads are worked out from.
+        with_loads: bool,
     },
     /// A step of listed cells.
-    StepListed,
+    StepListed {
+        /// Whether it keeps what the loads are worked out from.
+        with_loads: bool,
+    },
     /// Populations read out.
     Observe,
     /// Sums over the box.
     Summary,
-    /// What each share of a solid receives.
-    Impulses,
 }
 
 impl Work {
@@ -60,10 +63,9 @@ impl Work {
     pub(super) fn entry(self) -> &'static str {
         match self {
             Work::Step { .. } => "step",
-            Work::StepListed => "step_listed",
+            Work::StepListed { .. } => "step_listed",
             Work::Observe => "observe",
             Work::Summary => "summary",
-            Work::Impulses => "impulses",
         }
     }
 }
@@ -80,16 +82,23 @@ impl Recipe<'_> {
         self.layout.count.div_ceil(32).next_multiple_of(64).min(MOST_STRANDS)
     }
 
+    /// What of the solids is in `work`, and whether it keeps what the loads are worked out from.
+    pub(super) fn solids_in(&self, work: Work) -> (SolidData, bool) {
+        let (is_in, with_loads) = match work {
+            Work::Step { with_solids, with_loads } => (with_solids, with_loads),
+            Work::StepListed { with_loads } => (true, with_loads),
+            Work::Summary => (true, false),
+            Work::Observe => (false, false),
+        };
+        if is_in { (self.solids, with_loads) } else { (SolidData::None, false) }
+    }
+
     /// The shader for `work`.
     pub(super) fn shader(&self, work: Work) -> String {
-        let (solids, listed) = match work {
-            Work::Step { with_solids } => (with_solids, false),
-            Work::StepListed | Work::Summary => (true, true),
-            Work::Observe | Work::Impulses => (false, true),
-        };
-        let steps = matches!(work, Work::Step { .. } | Work::StepListed);
-        let solids = if solids { self.solids } else { SolidData::None };
-        let flags = self.flags(solids, listed);
+        let listed = !matches!(work, Work::Step { .. });
+        let steps = matches!(work, Work::Step { .. } | Work::StepListed { .. });
+        let (solids, with_loads) = self.solids_in(work);
+        let flags = self.flags(work);
         let mut text = self.constants();
         let mut add = |file: &str| text += &selected(file, &flags);
         if steps || work == Work::Summary {
@@ -107,23 +116,28 @@ impl Recipe<'_> {
             }
         }
         add(&access(&self.layout, steps));
-        if listed {
+        if listed || with_loads {
             add(include_str!("wgsl/sums.wgsl"));
+        }
+        if with_loads {
+            add(include_str!("wgsl/moments_kept.wgsl"));
+        }
+        if listed {
             add(include_str!("wgsl/task.wgsl"));
             add(&faces(&self.setup.domain, &self.layout));
         }
         add(match work {
             Work::Step { .. } => include_str!("wgsl/step.wgsl"),
-            Work::StepListed => include_str!("wgsl/step_listed.wgsl"),
+            Work::StepListed { .. } => include_str!("wgsl/step_listed.wgsl"),
             Work::Observe => include_str!("wgsl/observe.wgsl"),
             Work::Summary => include_str!("wgsl/summary.wgsl"),
-            Work::Impulses => include_str!("wgsl/loads.wgsl"),
         });
         text
     }
 
     /// The names of the models that are on.
-    fn flags(&self, solids: SolidData, listed: bool) -> Vec<&'static str> {
+    fn flags(&self, work: Work) -> Vec<&'static str> {
+        let (solids, with_loads) = self.solids_in(work);
         let mut flags = Vec::new();
         let [along, across] = self.workgroup();
         let [nx, ny, _] = self.layout.cells;
@@ -142,8 +156,14 @@ impl Recipe<'_> {
             if solids == SolidData::Moving {
                 flags.push("MOVING");
             }
-            if solids == SolidData::Moving && listed {
+            if solids == SolidData::Moving || with_loads {
+                flags.push("SLOTS");
+            }
+            if solids == SolidData::Moving && matches!(work, Work::StepListed { .. }) {
                 flags.push("MANY");
+            }
+            if with_loads {
+                flags.push("LOADS");
             }
             let operator = self.setup.solid_phase.as_ref().map(|phase| phase.operator);
             if operator == Some(SolidOperator::Superposition) {

@@ -43,10 +43,12 @@ pub struct Kernel {
     pub(super) list_count: u32,
     pub(super) tasks: Tasks,
     pub(super) step: Pipeline,
+    /// The same that keeps the moments of covered cells, for the loads.
+    pub(super) step_with_loads: OnceCell<Pipeline>,
     pub(super) step_listed: OnceCell<Pipeline>,
+    pub(super) step_listed_with_loads: OnceCell<Pipeline>,
     pub(super) observe: OnceCell<Pipeline>,
     pub(super) summary: OnceCell<Pipeline>,
-    pub(super) impulses: OnceCell<Pipeline>,
     pub(super) gather: OnceCell<Pipeline>,
     /// Populations and parts of sums on their way back.
     pub(super) seen: RefCell<Growing>,
@@ -59,7 +61,6 @@ pub struct Kernel {
 pub(super) struct Tasks {
     pub(super) all: wgpu::Buffer,
     pub(super) listed: wgpu::Buffer,
-    pub(super) shares: wgpu::Buffer,
     pub(super) observed: wgpu::Buffer,
 }
 
@@ -70,7 +71,6 @@ impl Tasks {
         Ok(Tasks {
             all: task("all cells")?,
             listed: task("listed cells")?,
-            shares: task("shares")?,
             observed: task("observed cells")?,
         })
     }
@@ -96,7 +96,7 @@ impl Kernel {
         let data = solids.as_ref().map_or(SolidData::None, |solids| solids.data);
         let recipe = Recipe { setup: &setup, layout, solids: data };
         let with_solids = solids.as_ref().is_some_and(|solids| solids.in_every_cell);
-        let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids })?;
+        let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids, with_loads: false })?;
         let face_cells = recipe.face_cells();
         let copy = || {
             let make = |binding| {
@@ -115,10 +115,11 @@ impl Kernel {
             list_count: 0,
             tasks: Tasks::new(gpu)?,
             step,
+            step_with_loads: OnceCell::new(),
             step_listed: OnceCell::new(),
+            step_listed_with_loads: OnceCell::new(),
             observe: OnceCell::new(),
             summary: OnceCell::new(),
-            impulses: OnceCell::new(),
             gather: OnceCell::new(),
             seen: RefCell::new(Growing::new(gpu, "what is read back")?),
             watch: Watch::default(),
@@ -224,20 +225,14 @@ impl Kernel {
 
     /// Lists the cells that the step of all cells does not do right.
     pub(super) fn list_cells(&mut self) -> Result<(), KernelError> {
-        let mut cells = self.face_cells.clone();
-        let mut many = 0;
-        if let Some(solids) = &self.solids {
-            many = solids.many;
-            let listed = solids.listed_cells().iter();
-            if self.face_cells.is_empty() {
-                cells.extend(listed);
-            } else {
-                // Face cells come in order.
-                cells.extend(listed.filter(|cell| self.face_cells.binary_search(cell).is_err()));
+        let (cells, many) = match &self.solids {
+            None => (self.face_cells.clone(), 0),
+            Some(solids) => {
+                let mut cells = solids.listed_cells();
+                cells.extend(self.face_cells.iter().filter(|&&cell| !solids.lists(cell)));
+                (cells, solids.many)
             }
-            let task = [solids.share_count, 1, 1, many];
-            self.gpu.queue.write_buffer(&self.tasks.shares, 0, bytemuck::bytes_of(&task));
-        }
+        };
         self.list_count = count(cells.len());
         self.list.fill(&self.gpu, &cells)?;
         let listed = [self.list_count, 1, 1, many];

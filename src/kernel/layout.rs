@@ -18,7 +18,7 @@ pub(super) const WORD: u64 = 4;
 const DIRECTIONS: u32 = 19;
 
 /// Storage bindings of a shader besides the populations, at most.
-const OTHER_BINDINGS: u32 = 4;
+const OTHER_BINDINGS: u32 = 5;
 
 /// Values by which the rows of two directions are apart in a buffer, modulo a page of 4096 bytes: rows
 /// that start at the same place of a page compete for the same lines of a cache.
@@ -80,7 +80,7 @@ impl Layout {
         if adapter.prefers_textures && nx.max(ny) <= longest {
             let per_binding = (longest / nz).min(MAX_TEXTURE_BYTES / (count * WORD));
             // Both copies, and what is known of each cell's solids.
-            let bindings = 2 * u64::from(DIRECTIONS).div_ceil(per_binding.max(1)) + 1;
+            let bindings = 2 * u64::from(DIRECTIONS).div_ceil(per_binding.max(1)) + 2;
             if per_binding > 0 && bindings <= u64::from(adapter.max_texture_bindings) {
                 return layout(Store::Textures, nz, per_binding);
             }

@@ -8,7 +8,7 @@
 //! | `wgsl/single.wgsl`, `wgsl/moments.wgsl` | collision, with one relaxation time and with many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `coverage.rs`, `sphere.rs`, `solids.rs` | what the solids cover, and its tables on the device |
-//! | `wgsl/loads.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
+//! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
 //! | `fluid.rs`, `steps.rs`, `sight.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
 //!
 //! The populations are kept as they are after a collision, less their weights, direction by direction,
@@ -42,5 +42,5 @@ pub use device::{AdapterFacts, Gpu, adapters};
 pub use error::KernelError;
 pub use fluid::Kernel;
 pub use sight::Summary;
-pub use sphere::{sampled_fraction, solid_fraction};
+pub use sphere::{sampled_fraction, solid_fraction, solid_fractions};
 pub use watch::KernelTimes;

@@ -20,44 +20,57 @@ struct SolidPart {
 //#end
 }
 
-//#if MOVING
-fn part_of(b: f32, x: f32, y: f32, z: f32) -> SolidPart {
-    // ū = Σ B_s u_s / B
-    let over = 1.0 / max(b, f32(1e-30));
-    let mean_y = y * over;
-    let mean_z = z * over;
-    return SolidPart(b, x, y, z, x * x * over, y * mean_y, z * mean_z, x * mean_y, y * mean_z, x * mean_z);
-}
-
+//#if SLOTS
 // Per cell the number of its record, or 0.
 //#if TEXTURES
-@group(0) @binding(40) var slots: texture_storage_3d<r32uint, read>;
+@group(0) @binding(41) var slots: texture_storage_3d<r32uint, read>;
+
+fn slot_of(x: u32, y: u32, z: u32) -> u32 {
+    return textureLoad(slots, vec3<u32>(x, y, z)).x;
+}
 //#else
-@group(0) @binding(40) var<storage, read> slots: array<u32>;
+@group(0) @binding(41) var<storage, read> slots: array<u32>;
+
+fn slot_of(x: u32, y: u32, z: u32) -> u32 {
+    return slots[x + STEP_Y * y + STEP_Z * z];
+}
 //#end
+//#end
+
+//#if MOVING
 // (B, Σ B_s u_s) of each record; number 0 is that of a cell without solids.
-@group(0) @binding(41) var<storage, read> records: array<vec4<f32>>;
+@group(0) @binding(42) var<storage, read> records: array<vec4<f32>>;
 //#if MANY
-// Of the first records, cells in which several solids meet: what Σ B_s u_s u_s is above that of one
-// solid with the mean velocity (xx, yy, zz, 0), (xy, yz, xz, 0).
-@group(0) @binding(42) var<storage, read> excess: array<vec4<f32>>;
+// Of the first listed cells, in which several solids meet: what Σ B_s u_s u_s is above that of one solid
+// with the mean velocity (xx, yy, zz, 0), (xy, yz, xz, 0).
+@group(0) @binding(43) var<storage, read> excess: array<vec4<f32>>;
 //#end
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
-//#if TEXTURES
-    let slot = textureLoad(slots, vec3<u32>(x, y, z)).x;
-//#else
-    let slot = slots[x + STEP_Y * y + STEP_Z * z];
-//#end
+    let slot = slot_of(x, y, z);
+    // Invocations that skip the load cost a software adapter next to nothing.
     var record = vec4<f32>(0.0);
     if (slot > 0u) {
         record = records[slot];
     }
-    var part = part_of(record.x, record.y, record.z, record.w);
+    let b = record.x;
+    let u = record.yzw;
+    // ū = Σ B_s u_s / B
+    let mean = u / max(b, 1e-30);
+    return SolidPart(
+        b, u.x, u.y, u.z,
+        u.x * mean.x, u.y * mean.y, u.z * mean.z,
+        u.x * mean.y, u.y * mean.z, u.x * mean.z,
+    );
+}
+
 //#if MANY
-    if (slot > 0u && slot <= task.many) {
-        let square = excess[2u * slot - 2u];
-        let mixed = excess[2u * slot - 1u];
+// The same of the listed cell of that number.
+fn solid_part_of_listed(number: u32, x: u32, y: u32, z: u32) -> SolidPart {
+    var part = solid_part(x, y, z);
+    if (task.is_listed == 1u && number < task.many) {
+        let square = excess[2u * number];
+        let mixed = excess[2u * number + 1u];
         part.square_x += square.x;
         part.square_y += square.y;
         part.square_z += square.z;
@@ -65,22 +78,22 @@ fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
         part.mixed_yz += mixed.y;
         part.mixed_xz += mixed.z;
     }
-//#end
     return part;
 }
+//#end
 //#else
 // B of each cell.
 //#if TEXTURES
 @group(0) @binding(40) var weights: texture_storage_3d<r32float, read>;
-//#else
-@group(0) @binding(40) var<storage, read> weights: array<f32>;
-//#end
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
-//#if TEXTURES
     return SolidPart(textureLoad(weights, vec3<u32>(x, y, z)).x);
-//#else
-    return SolidPart(weights[x + STEP_Y * y + STEP_Z * z]);
-//#end
 }
+//#else
+@group(0) @binding(40) var<storage, read> weights: array<f32>;
+
+fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
+    return SolidPart(weights[x + STEP_Y * y + STEP_Z * z]);
+}
+//#end
 //#end
