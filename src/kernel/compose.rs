@@ -135,6 +135,14 @@ impl Recipe<'_> {
         text
     }
 
+    /// The shader that adds up the shares of each solid.
+    pub(super) fn gather(&self) -> String {
+        // A workgroup waits for its slowest part, which a software adapter does at some cost: there it has
+        // but one part, eight invocations.
+        let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
+        format!("const LANES = {lanes}u;\n{}", include_str!("wgsl/gather.wgsl"))
+    }
+
     /// The names of the models that are on.
     fn flags(&self, work: Work) -> Vec<&'static str> {
         let (solids, with_loads) = self.solids_in(work);

@@ -3,7 +3,6 @@
 
 use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
-use std::time::Instant;
 
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
@@ -213,12 +212,12 @@ impl Kernel {
         let tau = self.setup.collision.tau();
         if let (Some(phase), Some(on_device)) = (&mut self.setup.solid_phase, &mut self.solids) {
             phase.solids = solids;
-            let start = Instant::now();
+            let since = self.watch.begin();
             on_device.list(&self.setup.domain, phase);
-            self.watch.add(start, |times| &mut times.coverage);
-            let start = Instant::now();
+            self.watch.add(since, |times| &mut times.coverage);
+            let since = self.watch.begin();
             on_device.upload(&self.gpu, phase, tau)?;
-            self.watch.add(start, |times| &mut times.transfers);
+            self.watch.add(since, |times| &mut times.transfers);
         }
         self.list_cells()
     }

@@ -43,4 +43,4 @@ pub use error::KernelError;
 pub use fluid::Kernel;
 pub use sight::Summary;
 pub use sphere::{sampled_fraction, solid_fraction, solid_fractions};
-pub use watch::KernelTimes;
+pub use watch::{Beginning, KernelTimes, Spent};

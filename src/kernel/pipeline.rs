@@ -55,8 +55,8 @@ impl Pipeline {
     }
 
     /// The pipeline that adds up the shares of each solid.
-    pub(super) fn gather(gpu: &Gpu) -> Result<Self, KernelError> {
-        let raw = compiled(gpu, include_str!("wgsl/gather.wgsl"), "gather")?;
+    pub(super) fn gather(gpu: &Gpu, recipe: &Recipe<'_>) -> Result<Self, KernelError> {
+        let raw = compiled(gpu, &recipe.gather(), "gather")?;
         Ok(Pipeline { raw, slots: Vec::new() })
     }
 

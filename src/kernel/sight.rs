@@ -1,7 +1,5 @@
 //! What can be seen of the fluid: loads, populations, sums over the box.
 
-use std::time::Instant;
-
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Load;
@@ -23,9 +21,9 @@ impl Kernel {
     /// Force and torque on each solid during the last step.
     pub fn loads(&self) -> Result<Vec<Load>, KernelError> {
         let Some(solids) = &self.solids else { return Ok(Vec::new()) };
-        let start = Instant::now();
+        let since = self.watch.begin();
         let bytes = self.gpu.read(solids.loads.buffer(), 32 * u64::from(solids.solid_count))?;
-        self.watch.add(start, |times| &mut times.transfers);
+        self.watch.add(since, |times| &mut times.transfers);
         let rows: &[[f32; 4]] = bytemuck::cast_slice(&bytes);
         let vector = |row: &[f32; 4]| Vec3::new(row[0].into(), row[1].into(), row[2].into());
         Ok(rows

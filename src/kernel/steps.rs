@@ -34,6 +34,7 @@ impl Kernel {
 
     /// The first step: the populations are there before their collision.
     fn first_step(&mut self, with_loads: bool) -> Result<(), KernelError> {
+        let since = self.watch.begin();
         // All cells, and again those in which several solids meet: what is more of them goes by the list.
         let many = self.solids.as_ref().map_or(0, |solids| solids.many);
         let tasks = [
@@ -58,7 +59,7 @@ impl Kernel {
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.watch.wait(&self.gpu, |times| &mut times.fluid)?;
+        self.watch.wait(&self.gpu, since, |times| &mut times.fluid)?;
         if with_loads {
             self.submit_loads()?;
         }
@@ -70,6 +71,7 @@ impl Kernel {
 
     /// Encodes and submits `steps` steps.
     fn submit_steps(&mut self, steps: u64, with_loads: bool) -> Result<(), KernelError> {
+        let since = self.watch.begin();
         let with_loads = with_loads && self.has_solids();
         let before = steps - u64::from(with_loads);
         let [nx, ny, nz] = self.layout.cells;
@@ -94,7 +96,7 @@ impl Kernel {
             self.gpu.queue.submit([encoder.finish()]);
         })?;
         drop(kinds);
-        self.watch.wait(&self.gpu, |times| &mut times.fluid)?;
+        self.watch.wait(&self.gpu, since, |times| &mut times.fluid)?;
         if with_loads {
             self.submit_loads()?;
         }
@@ -139,9 +141,10 @@ impl Kernel {
 
     /// Adds up the loads of the step that was submitted last.
     fn submit_loads(&self) -> Result<(), KernelError> {
+        let since = self.watch.begin();
         let Some(solids) = &self.solids else { return Ok(()) };
         if self.gather.get().is_none() {
-            let _ = self.gather.set(Pipeline::gather(&self.gpu)?);
+            let _ = self.gather.set(Pipeline::gather(&self.gpu, &self.recipe())?);
         }
         let Some(gather) = self.gather.get() else { return Ok(()) };
         let buffers = [
@@ -164,7 +167,7 @@ impl Kernel {
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.watch.wait(&self.gpu, |times| &mut times.forces)
+        self.watch.wait(&self.gpu, since, |times| &mut times.forces)
     }
 
     pub(super) fn bind(

@@ -18,11 +18,10 @@
 // Force and torque of each solid
 @group(0) @binding(5) var<storage, read_write> loads: array<vec4<f32>>;
 
-const LANES = 64u;
 var<workgroup> force: array<vec3<f32>, LANES>;
 var<workgroup> torque: array<vec3<f32>, LANES>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(LANES)
 fn gather(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
