@@ -29,7 +29,7 @@ use crate::kernel::KernelError;
 use crate::run::RunError;
 use crate::scene::SceneError;
 
-pub use bench::{Bench, EngineName};
+pub use bench::{Bench, EngineName, Finished};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use table::Table;
 
