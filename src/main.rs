@@ -127,12 +127,14 @@ Examples:
         engine: EngineArguments,
     },
     /// Measures what speed costs in accuracy: cells per grain, relaxation time, models, engines
-    #[command(after_help = "Rows are added to the table as they are made; runs that have one are left out.
+    #[command(
+        after_help = "Rows are added to the table as they are made; runs that have one are left out.
 
 Examples:
   psmrt tradeoff --quick
   psmrt tradeoff settling --oracle-only
-  psmrt tradeoff --out golden/tradeoff")]
+  psmrt tradeoff --out golden/tradeoff"
+    )]
     Tradeoff(TradeoffRequest),
     /// Says what this program is and what it runs on
     Info,

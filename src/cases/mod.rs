@@ -15,6 +15,7 @@ mod stokes_settling;
 mod suspension;
 mod table;
 mod ten_cate;
+mod tradeoff;
 
 use std::io;
 use std::ops::RangeInclusive;
@@ -63,6 +64,7 @@ pub const CASES: &[Case] = &[
     suspension::CASE,
     cloud_settling::CASE,
     conformance::CASE,
+    tradeoff::CASE,
 ];
 
 /// A claim about one number.

@@ -30,8 +30,7 @@ impl Table {
     /// The same from a file's text; `name` is what messages call it.
     pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
         let wrong = |error: csv::Error| CaseError::Table(format!("{name}: {error}"));
-        let mut reader =
-            csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
         let rows = reader
             .records()

@@ -50,15 +50,15 @@ impl std::str::FromStr for Wanted {
             Some(number) => (number.trim_end(), true),
             None => (text.trim(), false),
         };
-        let value: f64 = number
-            .parse()
-            .map_err(|_| format!("{text:?} is no number: write it as 5% or 0.05"))?;
+        let value: f64 =
+            number.parse().map_err(|_| format!("{text:?} is no number: write it as 5% or 0.05"))?;
         let value = if percent { value / 100.0 } else { value };
         match value {
             value if value > 0.0 && value < 1.0 => Ok(Wanted(value)),
-            value if value >= 1.0 && !percent => {
-                Err(format!("{text} would be {} %: write {text}% or a fraction like 0.05", 100.0 * value))
-            }
+            value if value >= 1.0 && !percent => Err(format!(
+                "{text} would be {} %: write {text}% or a fraction like 0.05",
+                100.0 * value
+            )),
             _ => Err(format!("{text}: it must lie between 0 and 100 % (exclusive)")),
         }
     }
@@ -136,7 +136,8 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
         let scene = Scene::load(&request.scene, &set)?;
         let mut engine: Box<dyn Engine> = engine(&scene, &request.scene, false)?;
         let Some([per_second, _]) = calibrate(&scene, engine.as_mut(), CALIBRATION) else {
-            let problem = "its first steps fail: `psmrt run` says why; a plan needs a scene that runs";
+            let problem =
+                "its first steps fail: `psmrt run` says why; a plan needs a scene that runs";
             return Err(CommandError::Usage(format!("{}: {problem}", request.scene.display())));
         };
         let is_srt = trial::collision_of(&scene.setup.collision) == Some(CollisionKnob::Srt);
@@ -155,7 +156,7 @@ fn unreachable_error(all: &[Way], wanted: f64, facts: &Facts) -> CommandError {
         let [nx, ny, nz] = facts.cells;
         return CommandError::Usage(format!(
             "no grid that fills the box of {nx} x {ny} x {nz} cells lies within the evidence (4 to 23 cells \
-             per diameter, tau 0.55 to 2, 0.1 cells per time step at most): choose a box whose sides share \
+             per diameter, 6 and more between plates, tau 0.6 to 2, 0.1 cells per time step at most): choose a box whose sides share \
              a larger divisor, or a slower flow"
         ));
     };
@@ -172,11 +173,7 @@ fn unreachable_error(all: &[Way], wanted: f64, facts: &Facts) -> CommandError {
 }
 
 /// What lies around a plan.
-fn alternatives<'a>(
-    all: &'a [Way],
-    best: &Way,
-    wanted: f64,
-) -> Vec<(String, Option<&'a Way>)> {
+fn alternatives<'a>(all: &'a [Way], best: &Way, wanted: f64) -> Vec<(String, Option<&'a Way>)> {
     let mut found = vec![
         ("twice as fast".to_owned(), most_accurate(all, 0.5 * best.seconds)),
         ("half the error".to_owned(), cheapest(all, 0.5 * wanted)),
@@ -197,10 +194,15 @@ fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, C
             let mut lines = vec![format!(
                 "drag over Stokes' drag about {drag:.3}: that of {because}; the error grows with it"
             )];
-            lines.extend(support::of_grains(models, best.collision, best.resolution, best.tau, *drag)?);
-            let reynolds = facts.si_velocity.map(|u| {
-                u * best.resolution * best.si_dx / facts.si_viscosity
-            });
+            lines.extend(support::of_grains(
+                models,
+                best.collision,
+                best.resolution,
+                best.tau,
+                *drag,
+            )?);
+            let reynolds =
+                facts.si_velocity.map(|u| u * best.resolution * best.si_dx / facts.si_viscosity);
             lines.extend(support::of_reynolds(reynolds));
             Ok(lines)
         }
@@ -208,8 +210,15 @@ fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, C
     }
 }
 
+/// Two digits that count.
 fn percent(value: f64) -> String {
-    format!("{:.2} %", 100.0 * value)
+    match 100.0 * value {
+        percent if percent < 0.001 => "< 0.001 %".to_owned(),
+        percent if percent < 0.0995 => format!("{percent:.3} %"),
+        percent if percent < 0.995 => format!("{percent:.2} %"),
+        percent if percent < 9.95 => format!("{percent:.1} %"),
+        percent => format!("{percent:.0} %"),
+    }
 }
 
 fn words(way: &Way) -> String {
@@ -248,12 +257,12 @@ fn print(
         Limit::Plates { .. } => "cells between walls",
     };
     say(&format!(
-        "  {:<18}{across:>21}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
-        "", "tau", "collision", "engine", "error", "90 % lie within", "time"
+        "  {:<21}{across:>21}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
+        "", "tau", "collision", "engine", "error", "95 % lie within", "time"
     ));
     let line = |what: &str, way: Option<&Way>| match way {
         Some(way) => say(&format!(
-            "  {what:<18}{:>21.1}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
+            "  {what:<21}{:>21.1}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
             way.resolution,
             way.tau,
             way.collision.words(),
@@ -262,7 +271,7 @@ fn print(
             format!("{} to {}", percent(way.band[0]), percent(way.band[1])),
             duration(way.seconds)
         )),
-        None => say(&format!("  {what:<18}none within the evidence")),
+        None => say(&format!("  {what:<21}none within the evidence")),
     };
     line("as it is", now);
     line(&format!("plan for {}", percent(wanted)), Some(best));
@@ -270,7 +279,10 @@ fn print(
         line(what, *way);
     }
     let [nx, ny, nz] = best.cells;
-    say(&format!("\nthe plan: dx = {:.4e} m, {nx} x {ny} x {nz} cells, tau = {}", best.si_dx, best.tau));
+    say(&format!(
+        "\nthe plan: dx = {:.4e} m, {nx} x {ny} x {nz} cells, tau = {}",
+        best.si_dx, best.tau
+    ));
     say(match facts.limit {
         Limit::Grains { .. } => {
             "error: of the settling velocity, or of the flow that a given force drives; times are upper limits"
@@ -302,15 +314,21 @@ fn write_scene(
     let text = text(scene, folder, best, &comment).map_err(|error| failed(error.to_string()))?;
     let name = file.display().to_string();
     // A plan that cannot be run is not written.
-    Scene::from_bytes(&name, text.clone().into_bytes(), file.parent().unwrap_or(Path::new("")), &[])?;
-    let mut out = OpenOptions::new().write(true).create_new(true).open(file).map_err(|error| {
-        match error.kind() {
+    Scene::from_bytes(
+        &name,
+        text.clone().into_bytes(),
+        file.parent().unwrap_or(Path::new("")),
+        &[],
+    )?;
+    let mut out =
+        OpenOptions::new().write(true).create_new(true).open(file).map_err(|error| match error
+            .kind()
+        {
             std::io::ErrorKind::AlreadyExists => CommandError::Usage(format!(
                 "{name} is there already and stays: give --write another name, or remove it"
             )),
             _ => failed(error.to_string()),
-        }
-    })?;
+        })?;
     out.write_all(text.as_bytes()).map_err(|error| failed(error.to_string()))?;
     if !request.json {
         say(&format!("\nwritten to {name}"));

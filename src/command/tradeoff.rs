@@ -1,17 +1,25 @@
 //! `psmrt tradeoff`: sweeps the knobs of scenes on flows with known answers.
 
+use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
+use psmrt_report::write_svg;
 
-use super::CommandError;
 use super::execute::say;
-use crate::cases::Table;
+use super::{CommandError, write};
+use crate::cases::{CaseError, Table};
 use crate::kernel::Gpu;
+use crate::output::atomic;
+use crate::tradeoff::evidence::{grain_points, wall_points};
 use crate::tradeoff::knobs::{Flow, Knobs};
 use crate::tradeoff::measure::Runner;
+use crate::tradeoff::model::Models;
 use crate::tradeoff::record::{Record, Row};
 use crate::tradeoff::sweep::runs;
+use crate::tradeoff::trial::trials;
+use crate::tradeoff::{cost, effects, figures, tables};
 
 /// What `psmrt tradeoff` is asked for.
 #[derive(Args, Clone, Debug)]
@@ -39,7 +47,7 @@ pub struct TradeoffRequest {
 pub fn tradeoff(request: &TradeoffRequest, _json: bool) -> Result<(), CommandError> {
     let wanted = wanted(request)?;
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
-    let mut runner = Runner::new(&request.golden, gpu)?;
+    let mut runner = Runner::new(&request.golden, gpu.clone())?;
     let (file, what) = if request.held_back {
         ("held_back_results.csv", " --held-back")
     } else {
@@ -61,14 +69,68 @@ pub fn tradeoff(request: &TradeoffRequest, _json: bool) -> Result<(), CommandErr
     for (number, knobs) in can.into_iter().enumerate() {
         let row = runner.measure(&knobs)?;
         say(&format!("{}/{all} {}", number + 1, words(&row)));
-        record.add(row).map_err(crate::cases::CaseError::from)?;
+        record.add(row).map_err(CaseError::from)?;
     }
+    if request.held_back { Ok(()) } else { summarise(request, gpu.as_ref(), &record.rows) }
+}
+
+/// Writes what is made of the rows, replacing what was made of fewer.
+fn summarise(
+    request: &TradeoffRequest,
+    gpu: Option<&Arc<Gpu>>,
+    rows: &[Row],
+) -> Result<(), CommandError> {
+    let file = |name: &str| request.out.join(name);
+    let save = |name: &str, comment: &str, table: &Table| {
+        let text = format!("# {comment}: psmrt tradeoff --out DIR\n{}", table.to_csv());
+        write(&file(name), |path| atomic::write(path, |out| out.write_all(text.as_bytes())))
+    };
+    let costs = if file("cost.csv").exists() {
+        Table::read(&file("cost.csv"))?
+    } else {
+        say("measuring what a cell update costs");
+        let costs = cost::measure(&request.golden, gpu)?;
+        save("cost.csv", "Cost of a cell update, the best of seven rounds", &costs)?;
+        costs
+    };
+    let models = Models::fit(&grain_points(rows)?, &wall_points(rows));
+    save(
+        "fits.csv",
+        "Error models (src/tradeoff/model.rs) and their bands",
+        &tables::fits(&models),
+    )?;
+    save(
+        "front.csv",
+        "The runs that no other beats in error and cost",
+        &tables::fronts(rows, &costs),
+    )?;
+    let effects = effects::to_table(&effects::effects(rows));
+    save("effects.csv", "What one knob alone does to the error", &effects)?;
+    let results = file("held_back_results.csv");
+    if results.exists() {
+        let trials = trials(&models, &Row::of_table(&Table::read(&results)?)?);
+        save(
+            "held_back_check.csv",
+            "What was kept back from the fits, predicted and measured",
+            &tables::check(&trials),
+        )?;
+        if let Some(figure) = figures::held_back(&trials) {
+            write(&file("held_back.svg"), |path| write_svg(&figure, path))?;
+        }
+    }
+    for flow in Flow::ALL {
+        if let Some(figure) = figures::error_against_time(flow, rows, &costs) {
+            write(&file(&format!("{}.svg", flow.word())), |path| write_svg(&figure, path))?;
+        }
+    }
+    say(&format!("tables and figures in {}", request.out.display()));
     Ok(())
 }
 
 /// A row in one line.
 fn words(row: &Row) -> String {
-    let error = row.error.map_or_else(|| row.end.clone(), |error| format!("{:+.3} %", 100.0 * error));
+    let error =
+        row.error.map_or_else(|| row.end.clone(), |error| format!("{:+.3} %", 100.0 * error));
     format!(
         "{}: {error}, {:.2e} cell updates, {:.1} s",
         row.knobs.row().join(" "),

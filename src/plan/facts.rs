@@ -70,9 +70,11 @@ impl Facts {
                 faces.iter().all(|face| matches!(face, Face::Wall { .. }))
             });
             let Some(gap) = gap.map(|axis| cells[axis]).min() else {
-                return Ok(Err("it has neither grains nor two walls that face each other: there is \
+                return Ok(Err(
+                    "it has neither grains nor two walls that face each other: there is \
                                no error that the evidence knows"
-                    .to_owned()));
+                        .to_owned(),
+                ));
             };
             Limit::Plates { cells: gap as f64 }
         } else {
@@ -128,7 +130,8 @@ fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), 
     let volume: f64 = spheres.iter().map(|s| s.2 * 4.0 / 3.0 * PI * s.1.powi(3)).sum();
     let fraction = volume / domain.cell_count() as f64;
     let crowd = interpolated(
-        &Table::parse("golden/sphere_arrays/literature.csv", ARRAYS)?.with(&[("lattice", "FCC")])?,
+        &Table::parse("golden/sphere_arrays/literature.csv", ARRAYS)?
+            .with(&[("lattice", "FCC")])?,
         ["solid_fraction_c", "K_computed"],
         fraction,
     )?;

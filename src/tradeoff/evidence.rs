@@ -11,8 +11,9 @@ const STUDY: &str = include_str!("../../golden/sphere_arrays/study.csv");
 /// The grids that count: coarser ones have more than one error, and finer ones cost too much to be many.
 const LEAST_CELLS: f64 = 3.9;
 
-/// Below this relaxation time the error no longer falls, and other things go wrong.
-pub const LEAST_TAU: f64 = 0.55;
+/// Below this relaxation time what remains beside the leak counts most, and has either sign: at 0.55 the
+/// error of dense beds is half of what the models would say.
+pub const LEAST_TAU: f64 = 0.6;
 
 /// Reynolds number above which inertia shows in the truth itself.
 const MOST_REYNOLDS: f64 = 0.06;

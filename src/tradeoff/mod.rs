@@ -9,9 +9,14 @@
 //! | `record.rs` | rows in a file that grows and can be gone on with |
 //! | `front.rs` | runs that no other beats in cost and error |
 //! | `evidence.rs`, `fit.rs`, `model.rs` | error models, fitted to the committed rows |
+//! | `cost.rs`, `effects.rs` | what a cell update costs; what one knob alone does |
+//! | `figures.rs`, `tables.rs` | what is shown |
 //! | `trial.rs`, `support.rs` | what was kept back, and what stands behind a prediction |
 
+pub mod cost;
+pub mod effects;
 pub mod evidence;
+pub mod figures;
 pub mod fit;
 pub mod front;
 pub mod knobs;
@@ -22,6 +27,7 @@ pub mod setting;
 pub mod storage;
 pub mod support;
 pub mod sweep;
+pub mod tables;
 pub mod trial;
 
 /// Processor and threads, for a column of a table.

@@ -29,8 +29,8 @@ pub fn of_grains(
             collision.words()
         ),
         format!(
-            "error = K^{:.2} [{:.2} (tau - 1/2)/d^2 + {:.2}/d^{:.2}]; 90 % of a geometry left out of the fit \
-             lie within a factor of {:.2}",
+            "error = K^{:.2} [{:.2} (tau - 1/2)/d^2 + {:.2}/d^{:.2}]; 95 % of what was \
+             left out of the fit lies within a factor of {:.2}",
             p[2],
             p[0].exp(),
             p[1].exp(),
@@ -94,8 +94,7 @@ pub fn of_walls(models: &Models, collision: CollisionKnob) -> Vec<String> {
              and d'Humieres derived, and {:.4} u^2 (u in cells per step)",
             model.count,
             collision.words(),
-            model.fit.parameters[0].exp(),
-            model.fit.parameters[1].exp()
+            model.fit.parameters[0], model.fit.parameters[1]
         )],
         None => vec![
             "with Lambda = 3/16 a plane wall along the grid stands exactly half-way between nodes: only \

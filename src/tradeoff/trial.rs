@@ -25,13 +25,20 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Whether the measured error lies within the band. Where less than the least error of the models is
-    /// predicted, whether it is not above the band of that.
-    pub fn hits(&self) -> bool {
+    /// The ends of the band. Where less than the least error of the models is predicted, all below that
+    /// error's band is within it.
+    pub fn ends(&self) -> [f64; 2] {
         if self.predicted < LEAST_ERROR && self.row.knobs.cells_per_diameter().is_some() {
-            return self.measured.abs() <= LEAST_ERROR * self.band;
+            let most = LEAST_ERROR * self.band;
+            return [-most, most];
         }
-        (self.predicted / self.band..=self.predicted * self.band).contains(&self.measured)
+        [self.predicted / self.band, self.predicted * self.band]
+    }
+
+    /// Whether the measured error lies within the band.
+    pub fn hits(&self) -> bool {
+        let [low, high] = self.ends();
+        (low..=high).contains(&self.measured)
     }
 }
 
@@ -64,7 +71,8 @@ pub fn collision_of(collision: &Collision) -> Option<CollisionKnob> {
     match collision {
         Collision::Srt { .. } => Some(CollisionKnob::Srt),
         Collision::Mrt { rates } => {
-            let is = |preset: Result<Rates, _>| preset.is_ok_and(|preset: Rates| close(&preset, rates));
+            let is =
+                |preset: Result<Rates, _>| preset.is_ok_and(|preset: Rates| close(&preset, rates));
             if is(Rates::dhumieres(tau)) {
                 Some(CollisionKnob::Dhumieres)
             } else if is(Rates::magic(tau, 3.0 / 16.0)) {
