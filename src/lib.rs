@@ -13,6 +13,8 @@
 //! | [`exact`] | exact solutions to compare with |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
+//! | [`tradeoff`] | speed for accuracy, measured |
+//! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
 //! | [`machine`] | what this machine has |
 
@@ -29,5 +31,7 @@ pub mod machine;
 pub mod oracle;
 pub mod output;
 pub mod packing;
+pub mod plan;
 pub mod run;
 pub mod scene;
+pub mod tradeoff;

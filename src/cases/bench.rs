@@ -138,11 +138,25 @@ impl Bench {
     /// Runs a scene of `golden/` to whatever end it has. Errors if it cannot be run.
     pub fn run(&mut self, scene: &str, changes: &[String]) -> Result<(Finished, End), CaseError> {
         (self.tell)(&format!("{} on {}: {}", scene, self.engine_name().word(), changes.join(" ")));
-        let scene = Scene::load(&self.golden.join(scene), changes)?;
-        let mut engine: Box<dyn Engine> = match &self.gpu {
+        let scene = self.load(scene, changes)?;
+        let engine: Box<dyn Engine> = match &self.gpu {
             None => Box::new(ReferenceEngine::new(&scene)?),
             Some(gpu) => Box::new(KernelEngine::new(&scene, gpu, false)?),
         };
+        self.run_on(scene, engine)
+    }
+
+    /// A scene of `golden/` with changes. Errors if it cannot be run.
+    pub fn load(&self, scene: &str, changes: &[String]) -> Result<Scene, CaseError> {
+        Ok(Scene::load(&self.golden.join(scene), changes)?)
+    }
+
+    /// Runs a scene on an engine of the caller's making to whatever end it has.
+    pub fn run_on(
+        &mut self,
+        scene: Scene,
+        mut engine: Box<dyn Engine>,
+    ) -> Result<(Finished, End), CaseError> {
         let (folder, vanishing) = match &self.kept {
             Some(kept) => (kept.join(run_name(&scene)), None),
             None => {

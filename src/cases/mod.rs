@@ -26,6 +26,7 @@ mod stream;
 mod suspension;
 mod table;
 mod ten_cate;
+mod tradeoff;
 
 use std::io;
 use std::ops::RangeInclusive;
@@ -42,7 +43,7 @@ use crate::run::RunError;
 use crate::scene::SceneError;
 
 pub use bed_laws::{BED_LAWS, BedLaw};
-pub use bench::{Bench, EngineName, WatcherOf};
+pub use bench::{Bench, EngineName, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use packed_bed::{Bed, Packing};
 pub use steadiness::{Settled, steadiness};
@@ -85,6 +86,7 @@ pub const CASES: &[Case] = &[
     suspension::CASE,
     cloud_settling::CASE,
     conformance::CASE,
+    tradeoff::CASE,
 ];
 
 /// A claim about one number.

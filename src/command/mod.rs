@@ -7,11 +7,13 @@ pub mod golden;
 pub mod info;
 pub mod oracle;
 pub mod pack;
+pub mod plan;
 mod profile;
 mod progress;
 pub mod report;
 pub mod resume;
 pub mod run;
+pub mod tradeoff;
 
 use std::path::Path;
 
