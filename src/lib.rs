@@ -14,6 +14,7 @@
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
 //! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
+//! | [`stability`] | where the method survives and where it is right |
 //! | [`machine`] | what this machine has |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -31,3 +32,4 @@ pub mod output;
 pub mod packing;
 pub mod run;
 pub mod scene;
+pub mod stability;

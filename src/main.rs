@@ -15,6 +15,7 @@ use psmrt::command::pack::PackRequest;
 use psmrt::command::report::ReportRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
+use psmrt::command::stability::StabilityRequest;
 use psmrt::command::{self, CommandError};
 
 /// Grains and water, resolved grain by grain: lattice Boltzmann with a verified oracle.
@@ -105,6 +106,15 @@ Examples:
         #[command(subcommand)]
         command: GoldenCommand,
     },
+    /// Maps where the method survives and where it is right
+    #[command(
+        after_help = "Goes on where it was cut off: runs that the records hold are not made again.
+
+Examples:
+  psmrt stability abc
+  psmrt stability --out golden/stability"
+    )]
+    Stability(StabilityRequest),
     /// Says what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -171,6 +181,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Pack(request) => command::pack::pack(&request, json),
         Command::Report(request) => command::report::report(&request, json),
         Command::Golden { command } => command::golden::golden(&command),
+        Command::Stability(request) => command::stability::stability(&request),
         Command::Oracle { command } => command::oracle::oracle(&command, json),
         Command::Info => {
             command::info::info(json);

@@ -12,6 +12,7 @@ mod progress;
 pub mod report;
 pub mod resume;
 pub mod run;
+pub mod stability;
 
 use std::path::Path;
 
@@ -25,6 +26,7 @@ use crate::oracle::files::FilesError;
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
+use crate::stability::LabError;
 
 /// A command that failed.
 #[derive(Debug, Error)]
@@ -58,6 +60,9 @@ pub enum CommandError {
     /// A case cannot be measured.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// A map of stability cannot be made.
+    #[error(transparent)]
+    Stability(#[from] LabError),
     /// A claim of the report fails.
     #[error("some claims fail: see the report")]
     ClaimsFail,
@@ -119,6 +124,7 @@ impl CommandError {
             | CommandError::Write { .. }
             | CommandError::CandidateFailed
             | CommandError::Case(_)
+            | CommandError::Stability(_)
             | CommandError::ClaimsFail
             | CommandError::GoldenDiffers => 1,
             CommandError::Interrupted { .. } => 130,
