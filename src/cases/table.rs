@@ -1,5 +1,6 @@
 //! Rows of named columns: what a case measures, and what the golden files hold.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use super::CaseError;
@@ -21,9 +22,15 @@ impl Table {
 
     /// Reads a CSV file whose lines that start with `#` are comments. Errors if it cannot be read.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let wrong = |error: csv::Error| CaseError::Table(format!("{}: {error}", path.display()));
-        let mut reader =
-            csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).map_err(wrong)?;
+        let wrong = |error: &dyn Display| CaseError::Table(format!("{}: {error}", path.display()));
+        let text = std::fs::read_to_string(path).map_err(|error| wrong(&error))?;
+        Self::parse(&text).map_err(|error| wrong(&error))
+    }
+
+    /// The same from the text of such a file.
+    pub fn parse(text: &str) -> Result<Self, CaseError> {
+        let wrong = |error: csv::Error| CaseError::Table(error.to_string());
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
         let rows = reader
             .records()

@@ -16,6 +16,7 @@
 
 mod beds;
 mod lab;
+pub mod limits;
 mod movers;
 mod periodic;
 pub mod record;
@@ -61,6 +62,8 @@ pub struct Flow {
     /// Whether all values are run, or only those that find the largest that survives and the largest
     /// that is right.
     pub search: Search,
+    /// A value of a line's own that is run besides: where the truth is known.
+    pub also: fn(&Line) -> Option<f64>,
     /// The lines, on an engine.
     pub lines: fn(EngineName) -> Vec<Line>,
     /// One run.

@@ -47,6 +47,7 @@ pub(super) const FLOW: Flow = Flow {
     knob: "density of the grain over that of the fluid",
     values: &[10.0, 5.0, 2.65, 1.5, 1.1, 1.01, 1.0, 0.8, 0.5, 0.2, 0.05],
     search: Search::All,
+    also: |_| None,
     lines: |engine| {
         let mut all = Vec::new();
         for variant in ["lagged", "kept"] {

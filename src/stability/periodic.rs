@@ -50,6 +50,7 @@ pub(super) const SHEAR_LAYER: Flow = Flow {
     knob: "velocity",
     values: SPEEDS,
     search: Search::Frontiers,
+    also: |_| None,
     lines,
     run: |lab, line, speed| {
         let cells = [48, 48, 1];
@@ -73,6 +74,7 @@ pub(super) const TAYLOR_GREEN: Flow = Flow {
     knob: "velocity",
     values: SPEEDS,
     search: Search::Frontiers,
+    also: |_| None,
     lines,
     run: |lab, line, speed| {
         let steps = within(48.0 / speed, 300, 800);
@@ -98,6 +100,7 @@ pub(super) const ABC: Flow = Flow {
     knob: "velocity",
     values: SPEEDS,
     search: Search::Frontiers,
+    also: |_| None,
     lines,
     run: abc,
 };

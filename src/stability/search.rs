@@ -13,8 +13,7 @@ pub fn map(
     tell: impl Fn(&str),
 ) -> Result<(), LabError> {
     for line in (flow.lines)(engine) {
-        let mut outcome = |number: usize| -> Result<Outcome, LabError> {
-            let value = flow.values[number];
+        let mut run = |value: f64| -> Result<Outcome, LabError> {
             if let Some(known) = record.outcome(&line, value) {
                 return Ok(known);
             }
@@ -22,6 +21,10 @@ pub fn map(
             tell(&record.add(&line, value, &found)?);
             Ok(found.outcome)
         };
+        if let Some(value) = (flow.also)(&line) {
+            run(value)?;
+        }
+        let mut outcome = |number: usize| run(flow.values[number]);
         match flow.search {
             Search::All => {
                 for number in 0..flow.values.len() {

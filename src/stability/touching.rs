@@ -32,6 +32,7 @@ pub(super) const CONTACT: Flow = Flow {
     knob: "duration of a contact on the floor, time steps",
     values: &[100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03],
     search: Search::All,
+    also: |_| None,
     lines: |engine| {
         let all = ["25", "15", "10", "5"];
         all.iter().flat_map(|variant| [0.6, 1.0].map(|tau| grains(engine, variant, tau))).collect()
@@ -50,6 +51,7 @@ pub(super) const OVERLAP: Flow = Flow {
     knob: "overlap at the start over the diameter",
     values: &[0.001, 0.003, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5],
     search: Search::All,
+    also: |_| None,
     lines: |engine| {
         let all = ["30", "10", "3"];
         all.iter().flat_map(|variant| [0.6, 1.0].map(|tau| grains(engine, variant, tau))).collect()
@@ -69,6 +71,7 @@ pub(super) const CROWD: Flow = Flow {
     knob: "grains that share the cells",
     values: &[1.0, 2.0, 4.0, 8.0],
     search: Search::All,
+    also: |_| None,
     lines: |engine| {
         let mut all = Vec::new();
         for variant in ["coincident", "cluster"] {
