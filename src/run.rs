@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::checkpoint::{self, CheckpointError, Progress};
 use crate::engine::{Engine, EngineStop};
 use crate::output::grain_means;
-use crate::output::records::{Recorder, box_row};
+use crate::output::records::{Recorder, box_row, force_row};
 use crate::scene::{Interval, Rhythm, Scene, Steady, What};
 
 /// A run that could not go on.
@@ -207,6 +207,7 @@ impl Quiet {
         }
         let value = match scene.records[self.steady.record].what {
             What::GrainMeans => grain_means::row(scene, engine)[self.steady.column],
+            What::Loads => force_row(scene, engine)[self.steady.column],
             _ => box_row(scene, engine)[self.steady.column],
         };
         // A value that is exactly zero says nothing: the flow has not begun, or has no such component.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use tempfile::TempDir;
 
-use super::{Case, CaseError, Table};
+use super::{Case, CaseError, Settled, Table};
 use crate::engine::{Engine, KernelEngine, ReferenceEngine};
 use crate::kernel::Gpu;
 use crate::run::{End, Watcher, run};
@@ -37,6 +37,7 @@ pub struct Bench {
     /// Told which scene runs, with its changes.
     tell: fn(&str),
     cell_updates: u64,
+    settled: Vec<Settled>,
 }
 
 /// A scene that has been run to its end.
@@ -45,13 +46,15 @@ pub struct Finished {
     pub scene: Scene,
     /// The engine at the end.
     pub engine: Box<dyn Engine>,
+    /// How steady it was, if it was run until it was.
+    pub settled: Option<Settled>,
     folder: TempDir,
 }
 
 impl Bench {
     /// On the oracle, or on the kernel of the device `gpu`, with the files of the folder `golden`.
     pub fn new(golden: &Path, gpu: Option<Arc<Gpu>>, tell: fn(&str)) -> Self {
-        Bench { golden: golden.to_owned(), gpu, tell, cell_updates: 0 }
+        Bench { golden: golden.to_owned(), gpu, tell, cell_updates: 0, settled: Vec::new() }
     }
 
     /// The engine.
@@ -62,6 +65,11 @@ impl Bench {
     /// Cell updates so far.
     pub fn cell_updates(&self) -> u64 {
         self.cell_updates
+    }
+
+    /// The runs that have become steady, since they were last asked for.
+    pub fn settled(&mut self) -> Vec<Settled> {
+        std::mem::take(&mut self.settled)
     }
 
     /// A table of the folder of a case. Errors if it cannot be read.
@@ -77,11 +85,14 @@ impl Bench {
     /// Runs a scene of `golden/`, with changes as `--set` takes them, until it is steady. Errors if it
     /// cannot be run or reaches its limit of time first.
     pub fn steady(&mut self, scene: &str, changes: &[String]) -> Result<Finished, CaseError> {
-        let (finished, end) = self.run(scene, changes)?;
+        let (mut finished, end) = self.run(scene, changes)?;
+        let scene = format!("{scene} {}", changes.join(" "));
         if end == End::Steady {
+            let settled = Settled::of(scene, &finished)?;
+            self.settled.push(settled.clone());
+            finished.settled = Some(settled);
             return Ok(finished);
         }
-        let scene = format!("{scene} {}", changes.join(" "));
         Err(CaseError::NotSteady { scene, steps: finished.engine.steps() })
     }
 
@@ -96,7 +107,7 @@ impl Bench {
         let folder = tempfile::tempdir()?;
         let end = run(&scene, engine.as_mut(), folder.path(), None, &mut GoOn)?;
         self.cell_updates += engine.steps() * scene.setup.domain.cell_count() as u64;
-        Ok((Finished { scene, engine, folder }, end))
+        Ok((Finished { scene, engine, settled: None, folder }, end))
     }
 }
 
@@ -105,6 +116,17 @@ impl Finished {
     pub fn record(&self, name: &str) -> Result<Table, CaseError> {
         Table::read(&self.folder.path().join(format!("{name}.csv")))
     }
+}
+
+/// What a scene is changed by to collide with `mrt` (d'Humieres' rates), `srt` or `magic` (two rates,
+/// Lambda = 3/16).
+pub fn collision_changes(word: &str) -> Vec<String> {
+    let changes: &[&str] = match word {
+        "srt" => &["collision.model=\"srt\""],
+        "magic" => &["collision.rates=\"magic\"", "collision.magic=0.1875"],
+        _ => &[],
+    };
+    changes.iter().map(|&change| change.to_owned()).collect()
 }
 
 /// Lets a run go on to its end.

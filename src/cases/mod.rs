@@ -10,8 +10,11 @@ mod cloud_settling;
 mod conformance;
 mod drift;
 mod poiseuille;
+mod packed_bed;
 mod sphere_arrays;
+mod steadiness;
 mod stokes_settling;
+mod stream;
 mod suspension;
 mod table;
 mod ten_cate;
@@ -31,6 +34,9 @@ use crate::scene::SceneError;
 
 pub use bench::{Bench, EngineName};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
+pub use packed_bed::{Bed, Packing};
+pub use stream::Stream;
+pub use steadiness::{Settled, steadiness};
 pub use table::Table;
 
 /// A case of the acceptance suite.
