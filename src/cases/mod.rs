@@ -9,6 +9,8 @@ mod bench;
 mod cloud_settling;
 mod conformance;
 mod drift;
+mod kernel_parity;
+mod kernel_speed;
 mod poiseuille;
 mod sphere_arrays;
 mod stokes_settling;
@@ -63,6 +65,8 @@ pub const CASES: &[Case] = &[
     suspension::CASE,
     cloud_settling::CASE,
     conformance::CASE,
+    kernel_parity::CASE,
+    kernel_speed::CASE,
 ];
 
 /// A claim about one number.
