@@ -12,6 +12,8 @@ mod conformance;
 mod drift;
 mod duct;
 mod packed_bed;
+mod kernel_parity;
+mod kernel_speed;
 mod poiseuille;
 mod seepage;
 mod seepage_figures;
@@ -87,6 +89,8 @@ pub const CASES: &[Case] = &[
     cloud_settling::CASE,
     conformance::CASE,
     tradeoff::CASE,
+    kernel_parity::CASE,
+    kernel_speed::CASE,
 ];
 
 /// A claim about one number.
