@@ -35,7 +35,11 @@ const SMALL: Bed =
     Bed { packing: Packing::Random { side: 2.0, count: 9, seed: 1 }, side_cells: 16, ..BED };
 
 fn main() -> Result<(), Box<dyn Error>> {
-    if std::env::args().nth(1).is_some_and(|word| word == "stability") { stability() } else { study() }
+    if std::env::args().nth(1).is_some_and(|word| word == "stability") {
+        stability()
+    } else {
+        study()
+    }
 }
 
 fn study() -> Result<(), Box<dyn Error>> {
@@ -78,7 +82,11 @@ fn runs() -> Vec<Bed> {
     // Other beds, and larger ones.
     for seed in 2..=5 {
         for reynolds in [1.0, 10.0, 30.0] {
-            runs.push(Bed { packing: Packing::Random { side: 3.0, count: 31, seed }, reynolds, ..BED });
+            runs.push(Bed {
+                packing: Packing::Random { side: 3.0, count: 31, seed },
+                reynolds,
+                ..BED
+            });
         }
     }
     for (side, count, side_cells) in [(4.0, 73, 32), (5.0, 143, 40)] {

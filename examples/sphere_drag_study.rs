@@ -19,8 +19,15 @@ const STUDY: &str = "golden/sphere_drag/study.csv";
 
 /// Reynolds number and relaxation time, the same on all grids: the velocity falls with the cell size, and
 /// is at most 0.07 cells per step at 8 cells per diameter.
-const STREAMS: [(f64, f64); 7] =
-    [(0.1, 0.7), (1.0, 0.7), (10.0, 0.6), (30.0, 0.54), (50.0, 0.53), (100.0, 0.515), (150.0, 0.51)];
+const STREAMS: [(f64, f64); 7] = [
+    (0.1, 0.7),
+    (1.0, 0.7),
+    (10.0, 0.6),
+    (30.0, 0.54),
+    (50.0, 0.53),
+    (100.0, 0.515),
+    (150.0, 0.51),
+];
 
 /// Widths in diameters, each one and a half times the last but for the paper's own, 5.
 const WIDTHS: [f64; 3] = [4.0, 6.0, 9.0];
@@ -41,14 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// All runs, the cheap ones first.
 fn runs() -> Vec<Stream> {
-    let paper = Stream {
-        collision: "mrt",
-        reynolds: 0.1,
-        cells: 6,
-        tau: 0.7,
-        width: 5.0,
-        tolerance: 3e-5,
-    };
+    let paper =
+        Stream { collision: "mrt", reynolds: 0.1, cells: 6, tau: 0.7, width: 5.0, tolerance: 3e-5 };
     let mut runs = Vec::new();
     let all = |cells: u32, collision: &'static str, streams: &[(f64, f64)]| -> Vec<Stream> {
         let one = |&(reynolds, tau)| Stream { collision, reynolds, cells, tau, ..paper };

@@ -9,8 +9,8 @@ mod bench;
 mod cloud_settling;
 mod conformance;
 mod drift;
-mod poiseuille;
 mod packed_bed;
+mod poiseuille;
 mod sphere_arrays;
 mod steadiness;
 mod stokes_settling;
@@ -36,8 +36,8 @@ use crate::scene::SceneError;
 pub use bench::{Bench, EngineName, Finished};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use packed_bed::{Bed, Packing};
-pub use stream::Stream;
 pub use steadiness::{Settled, steadiness};
+pub use stream::Stream;
 pub use table::Table;
 
 /// A case of the acceptance suite.

@@ -35,8 +35,7 @@ impl Settled {
         };
         let change = ((now - last) / now).abs();
         let ratio = (now - last) / (last - before);
-        let left =
-            if ratio > 0.0 && ratio < 1.0 { change * ratio / (1.0 - ratio) } else { change };
+        let left = if ratio > 0.0 && ratio < 1.0 { change * ratio / (1.0 - ratio) } else { change };
         let (steps, tolerance) = (finished.engine.steps(), steady.tolerance);
         Ok(Settled { run, steps, tolerance, change, left })
     }
