@@ -16,6 +16,7 @@
 //! | [`tradeoff`] | speed for accuracy, measured |
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
+//! | [`stability`] | where the method survives and where it is right |
 //! | [`machine`] | what this machine has |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -34,4 +35,5 @@ pub mod packing;
 pub mod plan;
 pub mod run;
 pub mod scene;
+pub mod stability;
 pub mod tradeoff;

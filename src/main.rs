@@ -16,6 +16,7 @@ use psmrt::command::plan::{PlanRequest, Wanted};
 use psmrt::command::report::ReportRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
+use psmrt::command::stability::StabilityRequest;
 use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
 
@@ -107,6 +108,15 @@ Examples:
         #[command(subcommand)]
         command: GoldenCommand,
     },
+    /// Maps where the method survives and where it is right
+    #[command(
+        after_help = "Goes on where it was cut off: runs that the records hold are not made again.
+
+Examples:
+  psmrt stability abc
+  psmrt stability --out golden/stability"
+    )]
+    Stability(StabilityRequest),
     /// Proposes the cheapest grid, time step, collision and engine for a scene and an error
     #[command(after_help = "Examples:
   psmrt plan golden/stokes_settling/scene.toml --error 5%
@@ -202,6 +212,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Pack(request) => command::pack::pack(&request, json),
         Command::Report(request) => command::report::report(&request, json),
         Command::Golden { command } => command::golden::golden(&command),
+        Command::Stability(request) => command::stability::stability(&request),
         Command::Plan { scene, error, write, set, engine } => {
             let set = engine.added_to(set);
             command::plan::plan(&PlanRequest { scene, set, error, write, json })

@@ -35,6 +35,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &[],
     rows: "held_back_check.csv",
+    full: "cargo run --release -- tradeoff made these rows; hours, and it can be cut off",
     measure,
     judge,
     draw,

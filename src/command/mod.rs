@@ -13,6 +13,7 @@ mod progress;
 pub mod report;
 pub mod resume;
 pub mod run;
+pub mod stability;
 pub mod tradeoff;
 
 use std::path::Path;
@@ -27,6 +28,7 @@ use crate::oracle::files::FilesError;
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
+use crate::stability::LabError;
 
 /// A command that failed.
 #[derive(Debug, Error)]
@@ -60,6 +62,9 @@ pub enum CommandError {
     /// A case cannot be measured.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// A map of stability cannot be made.
+    #[error(transparent)]
+    Stability(#[from] LabError),
     /// A claim of the report fails.
     #[error("some claims fail: see the report")]
     ClaimsFail,
@@ -121,6 +126,7 @@ impl CommandError {
             | CommandError::Write { .. }
             | CommandError::CandidateFailed
             | CommandError::Case(_)
+            | CommandError::Stability(_)
             | CommandError::ClaimsFail
             | CommandError::GoldenDiffers => 1,
             CommandError::Interrupted { .. } => 130,

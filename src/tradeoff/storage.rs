@@ -100,6 +100,10 @@ impl Engine for RoundedEngine {
         Ok(())
     }
 
+    fn look(&mut self) -> Result<(), EngineStop> {
+        Ok(self.solver.check_now().map_err(CoupledStop::from)?)
+    }
+
     fn box_means(&self) -> BoxMeans {
         let (f, g) = (self.solver.populations(), self.body_force());
         let n = f.len() as f64;
