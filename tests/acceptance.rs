@@ -70,6 +70,16 @@ fn committed_confusion_table_holds_its_claims() {
 }
 
 #[test]
+fn committed_maps_of_stability_hold_their_claims() {
+    holds("stability", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_costs_hold_their_claims() {
+    holds("cost", &mut Budget::oracle(0));
+}
+
+#[test]
 fn every_case_has_its_parts_and_a_test() {
     let tests = include_str!("acceptance.rs");
     for case in CASES {

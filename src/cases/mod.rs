@@ -8,10 +8,12 @@
 mod bench;
 mod cloud_settling;
 mod conformance;
+mod cost;
 mod drift;
-mod poiseuille;
 mod packed_bed;
+mod poiseuille;
 mod sphere_arrays;
+mod stability;
 mod steadiness;
 mod stokes_settling;
 mod stream;
@@ -35,8 +37,8 @@ use crate::scene::SceneError;
 pub use bench::{Bench, EngineName};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use packed_bed::{Bed, Packing};
-pub use stream::Stream;
 pub use steadiness::{Settled, steadiness};
+pub use stream::Stream;
 pub use table::Table;
 
 /// A case of the acceptance suite.
@@ -69,6 +71,8 @@ pub const CASES: &[Case] = &[
     suspension::CASE,
     cloud_settling::CASE,
     conformance::CASE,
+    stability::CASE,
+    cost::CASE,
 ];
 
 /// A claim about one number.

@@ -21,6 +21,7 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Model, Search};
+use crate::cases::EngineName;
 use crate::engine::Engine;
 use crate::scene::FreePart;
 
@@ -50,7 +51,8 @@ pub(super) const FLOW: Flow = Flow {
     also: |_| None,
     lines: |engine| {
         let mut all = Vec::new();
-        for variant in ["lagged", "kept"] {
+        let is_kernel = engine == EngineName::Wgpu;
+        for variant in if is_kernel { vec!["lagged"] } else { vec!["lagged", "kept"] } {
             all.extend([0.501, 0.51, 0.55, 0.6, 0.8, 1.0, 2.0, 5.0].map(|tau| Line {
                 engine,
                 model: Model::DHumieres,
