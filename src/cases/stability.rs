@@ -303,6 +303,6 @@ fn movers(map: &Table) -> Result<Figure, CaseError> {
         }
     }
     Ok(figure
-        .note("one grain of 6 cells, 400 steps; fluid inside: given back a step later (lagged), kept (below)")
+        .note("one grain of 6 cells, 600 steps; fluid inside: given back a step later (lagged), kept (below)")
         .note("right: momentum stays, never faster than at the start, final velocity within 2 %"))
 }
