@@ -214,7 +214,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Golden { command } => command::golden::golden(&command),
         Command::Stability(request) => command::stability::stability(&request),
         Command::Plan { scene, error, write, set, engine } => {
-            let set = engine.added_to(set);
+            let set = engine.added_to(set)?;
             command::plan::plan(&PlanRequest { scene, set, error, write, json })
         }
         Command::Tradeoff(request) => command::tradeoff::tradeoff(&request, json),
