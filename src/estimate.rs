@@ -2,6 +2,7 @@
 //! will cost, and what looks risky.
 
 mod grains;
+mod stability;
 
 use std::time::{Duration, Instant};
 
@@ -43,7 +44,7 @@ fn number(name: &'static str, value: f64, unit: &'static str, note: impl Into<St
 }
 
 /// The largest velocity that the scene names, m/s, and where it comes from.
-fn si_velocity(scene: &Scene) -> Option<(f64, &'static str)> {
+pub(crate) fn si_velocity(scene: &Scene) -> Option<(f64, &'static str)> {
     if let Some(si_velocity) = scene.si_reference_velocity {
         return Some((si_velocity, "time.reference_velocity"));
     }
@@ -296,6 +297,9 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warn(reason, "use a `pressure` outlet, or watch the column density of a record `box`");
     }
     for Warning { reason, remedy } in grains::warnings(scene) {
+        warn(reason, &remedy);
+    }
+    for Warning { reason, remedy } in stability::warnings(scene) {
         warn(reason, &remedy);
     }
     if scene.records.is_empty() && scene.exact.is_none() {

@@ -18,6 +18,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &["scene.toml"],
     rows: "expected.csv",
+    full: "the quick form is the full one",
     measure,
     judge,
     draw,

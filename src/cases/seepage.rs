@@ -35,6 +35,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &["scene.toml", "ordered.toml", "paper.toml"],
     rows: "expected.csv",
+    full: "cargo run --release --example seepage_study made study.csv and stability.csv (hours; it can be cut off); the paper's own size: psmrt run golden/seepage/paper.toml --engine wgpu",
     measure,
     judge,
     draw,

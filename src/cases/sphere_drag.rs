@@ -29,6 +29,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &["scene.toml"],
     rows: "expected.csv",
+    full: "cargo run --release --example sphere_drag_study made study.csv (hours; it can be cut off); the paper's own grid: psmrt run golden/sphere_drag/scene.toml --set domain.dx=1e-5",
     measure,
     judge,
     draw,
