@@ -77,7 +77,7 @@ fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
     }
     let mrt = steady(study, "mrt")?.with(&[("tau", "0.51")])?;
     for (packing, cells, label) in [
-        ("random 3", "8.0000", "31 spheres, 8 cells, five beds"),
+        ("random 3", "8.0000", "31 spheres, 8 cells"),
         ("random 3", "12.0000", "31 spheres, 12 cells"),
         ("random 4", "8.0000", "73 spheres, 8 cells"),
         ("random 5", "8.0000", "143 spheres, 8 cells"),

@@ -76,8 +76,8 @@ pub fn claims(study: &Table, stability: &Table, ordered: f64) -> Result<Vec<Clai
             what: format!("study: ordered bed, tau {tau}, grids extrapolated: psi over the exact one"),
             measured: limit.map_or(f64::NAN, |limit| limit / ordered),
             allowed: 0.95..=1.05,
-            why: "exact to eight digits; what second-order extrapolation from 16 and 21 cells leaves of an error of \
-                  5 to 10 % on them",
+            why: "exact to eight digits; what second-order extrapolation from 10.5 and 16 cells leaves of an error of \
+                  3 to 20 % on them",
         });
     }
     let limit = |collision: &str, tau: &str| {

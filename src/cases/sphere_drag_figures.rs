@@ -140,8 +140,11 @@ fn tau_figure(known: &Known, study: &Table) -> Result<Figure, CaseError> {
         let own = own.with(&[("cells_per_diameter", "4"), ("width_d", "5")])?;
         let mut points = own.points("tau", "K")?;
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let points = points.into_iter().map(|(tau, k)| (tau, k / known.duct - 1.0)).collect();
-        figure = figure.with(Series::line_points(name, points));
+        let error = |(tau, k): (f64, f64)| (tau, k / known.duct - 1.0);
+        let points: Vec<_> = points.into_iter().map(error).collect();
+        if !points.is_empty() {
+            figure = figure.with(Series::line_points(name, points));
+        }
     }
     // x = 2.25 ν K/a², the drag errs by -x/(1 + x): reference/ERRATA.md
     let leak = |tau: f64| 2.25 * (tau - 0.5) / 3.0 * known.duct / 4.0;
