@@ -118,9 +118,10 @@ fn summarise(
             write(&file("held_back.svg"), |path| write_svg(&figure, path))?;
         }
     }
-    for flow in Flow::ALL {
-        if let Some(figure) = figures::error_against_time(flow, rows, &costs) {
-            write(&file(&format!("{}.svg", flow.word())), |path| write_svg(&figure, path))?;
+    for problem in figures::problems(rows) {
+        if let Some(figure) = figures::error_against_time(&problem, rows, &costs) {
+            let name = format!("{}_{}.svg", problem.0.word(), problem.1).replace("_.", ".");
+            write(&file(&name), |path| write_svg(&figure, path))?;
         }
     }
     say(&format!("tables and figures in {}", request.out.display()));
