@@ -179,9 +179,9 @@ struct EngineArguments {
 
 impl EngineArguments {
     /// The changes of the scene with these among them.
-    fn added_to(self, mut set: Vec<String>) -> Vec<String> {
-        set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref()));
-        set
+    fn added_to(self, mut set: Vec<String>) -> Result<Vec<String>, CommandError> {
+        set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref())?);
+        Ok(set)
     }
 }
 
@@ -199,11 +199,11 @@ fn main() -> ExitCode {
 fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
     match command {
         Command::Check { scene, set, engine } => {
-            let set = engine.added_to(set);
+            let set = engine.added_to(set)?;
             command::check::check(&CheckRequest { scene, set, json })
         }
         Command::Run { scene, out, set, engine, profile } => {
-            let set = engine.added_to(set);
+            let set = engine.added_to(set)?;
             command::run::run(&RunRequest { scene, set, out, profile, json })
         }
         Command::Resume { dir, checkpoint } => {
@@ -214,7 +214,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Golden { command } => command::golden::golden(&command),
         Command::Stability(request) => command::stability::stability(&request),
         Command::Plan { scene, error, write, set, engine } => {
-            let set = engine.added_to(set);
+            let set = engine.added_to(set)?;
             command::plan::plan(&PlanRequest { scene, set, error, write, json })
         }
         Command::Tradeoff(request) => command::tradeoff::tradeoff(&request, json),

@@ -91,6 +91,26 @@ fn committed_confusion_table_holds_its_claims() {
 }
 
 #[test]
+fn committed_errors_of_the_kernel_stay_within_their_bounds() {
+    holds("kernel_parity", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_speeds_of_the_kernel_are_above_the_oracles() {
+    holds("kernel_speed", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_maps_of_stability_hold_their_claims() {
+    holds("stability", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_costs_hold_their_claims() {
+    holds("cost", &mut Budget::oracle(0));
+}
+
+#[test]
 fn every_case_has_its_parts_and_a_test() {
     let tests = include_str!("acceptance.rs");
     for case in CASES {

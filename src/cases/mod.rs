@@ -9,8 +9,11 @@ mod bed_laws;
 mod bench;
 mod cloud_settling;
 mod conformance;
+mod cost;
 mod drift;
 mod duct;
+mod kernel_parity;
+mod kernel_speed;
 mod packed_bed;
 mod poiseuille;
 mod seepage;
@@ -20,6 +23,7 @@ mod sphere_arrays;
 mod sphere_drag;
 mod sphere_drag_figures;
 mod sphere_drag_study;
+mod stability;
 mod steadiness;
 mod stokes_settling;
 mod stream;
@@ -87,6 +91,10 @@ pub const CASES: &[Case] = &[
     cloud_settling::CASE,
     conformance::CASE,
     tradeoff::CASE,
+    kernel_parity::CASE,
+    kernel_speed::CASE,
+    stability::CASE,
+    cost::CASE,
 ];
 
 /// A claim about one number.

@@ -84,6 +84,13 @@ impl Table {
         self.rows.iter().map(number).collect()
     }
 
+    /// The values of a column where there are any, in the order of the rows. Errors if one is no number.
+    pub fn numbers_where_given(&self, name: &str) -> Result<Vec<f64>, CaseError> {
+        let column = self.column(name)?;
+        let rows = self.rows.iter().filter(|row| !row[column].is_empty());
+        Table { columns: self.columns.clone(), rows: rows.cloned().collect() }.numbers(name)
+    }
+
     /// The one value of a column. Errors unless there is exactly one row.
     pub fn number(&self, name: &str) -> Result<f64, CaseError> {
         match self.numbers(name)?[..] {

@@ -132,7 +132,7 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
     let mut speeds = Vec::new();
     for kind in ["reference", "wgpu"].into_iter().take(1 + usize::from(kernel)) {
         let mut set = request.set.clone();
-        set.extend(engine_changes(Some(kind), None));
+        set.extend(engine_changes(Some(kind), None)?);
         let scene = Scene::load(&request.scene, &set)?;
         let mut engine: Box<dyn Engine> = engine(&scene, &request.scene, false)?;
         let Some([per_second, _]) = calibrate(&scene, engine.as_mut(), CALIBRATION) else {
