@@ -128,8 +128,8 @@ fn settling(quick: bool) -> Vec<Knobs> {
     // Twice as narrow and so eight times as cheap: finer grids.
     let narrow =
         |cells: &[u32], taus: &[f64]| self::grid(Flow::Settling, "0.5", cells, taus, &[Dhumieres]);
-    runs.extend(narrow(&[4, 8, 12], &[2.0, 1.5, 0.8]));
-    runs.extend(narrow(&[16], &[2.0, 1.5]));
+    runs.extend(narrow(&[4, 8], &[2.0, 1.5, 0.8]));
+    runs.extend(narrow(&[16], &[2.0]));
     runs
 }
 
