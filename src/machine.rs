@@ -1,5 +1,7 @@
 //! What this machine has.
 
+use std::time::Duration;
+
 /// Main memory in bytes, where the system says so.
 pub fn memory_bytes() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
@@ -13,6 +15,18 @@ pub fn processor() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     Some(line.split_once(':')?.1.trim().to_owned())
+}
+
+/// Processor time of all threads of this program so far, where the system says so. Unlike the time on the
+/// clock it hardly depends on what else the machine does.
+pub fn processor_time() -> Option<Duration> {
+    let nanoseconds = |entry: std::io::Result<std::fs::DirEntry>| -> Option<u64> {
+        let text = std::fs::read_to_string(entry.ok()?.path().join("schedstat")).ok()?;
+        text.split_whitespace().next()?.parse().ok()
+    };
+    // A thread may end while it is looked at: its time is missing then.
+    let all = std::fs::read_dir("/proc/self/task").ok()?.filter_map(nanoseconds);
+    Some(Duration::from_nanos(all.sum()))
 }
 
 /// Threads that the engines may use.

@@ -12,10 +12,12 @@ use psmrt::command::check::CheckRequest;
 use psmrt::command::golden::GoldenCommand;
 use psmrt::command::oracle::OracleCommand;
 use psmrt::command::pack::PackRequest;
+use psmrt::command::plan::{PlanRequest, Wanted};
 use psmrt::command::report::ReportRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::stability::StabilityRequest;
+use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
 
 /// Grains and water, resolved grain by grain: lattice Boltzmann with a verified oracle.
@@ -115,6 +117,35 @@ Examples:
   psmrt stability --out golden/stability"
     )]
     Stability(StabilityRequest),
+    /// Proposes the cheapest grid, time step, collision and engine for a scene and an error
+    #[command(after_help = "Examples:
+  psmrt plan golden/stokes_settling/scene.toml --error 5%
+  psmrt plan golden/stokes_settling/scene.toml --error 5% --write planned.toml")]
+    Plan {
+        /// Scene file (TOML)
+        scene: PathBuf,
+        /// The error that is wanted: 5% or 0.05
+        #[arg(long, value_name = "ERROR")]
+        error: Wanted,
+        /// Writes the planned scene to a new file
+        #[arg(long, value_name = "FILE")]
+        write: Option<PathBuf>,
+        /// Changes a value of the scene; can be given several times
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
+    },
+    /// Measures what speed costs in accuracy: cells per grain, relaxation time, models, engines
+    #[command(
+        after_help = "Rows are added to the table as they are made; runs that have one are left out.
+
+Examples:
+  psmrt tradeoff --quick
+  psmrt tradeoff settling --oracle-only
+  psmrt tradeoff --out golden/tradeoff"
+    )]
+    Tradeoff(TradeoffRequest),
     /// Says what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -148,9 +179,9 @@ struct EngineArguments {
 
 impl EngineArguments {
     /// The changes of the scene with these among them.
-    fn added_to(self, mut set: Vec<String>) -> Vec<String> {
-        set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref()));
-        set
+    fn added_to(self, mut set: Vec<String>) -> Result<Vec<String>, CommandError> {
+        set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref())?);
+        Ok(set)
     }
 }
 
@@ -168,11 +199,11 @@ fn main() -> ExitCode {
 fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
     match command {
         Command::Check { scene, set, engine } => {
-            let set = engine.added_to(set);
+            let set = engine.added_to(set)?;
             command::check::check(&CheckRequest { scene, set, json })
         }
         Command::Run { scene, out, set, engine, profile } => {
-            let set = engine.added_to(set);
+            let set = engine.added_to(set)?;
             command::run::run(&RunRequest { scene, set, out, profile, json })
         }
         Command::Resume { dir, checkpoint } => {
@@ -182,6 +213,11 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Report(request) => command::report::report(&request, json),
         Command::Golden { command } => command::golden::golden(&command),
         Command::Stability(request) => command::stability::stability(&request),
+        Command::Plan { scene, error, write, set, engine } => {
+            let set = engine.added_to(set)?;
+            command::plan::plan(&PlanRequest { scene, set, error, write, json })
+        }
+        Command::Tradeoff(request) => command::tradeoff::tradeoff(&request, json),
         Command::Oracle { command } => command::oracle::oracle(&command, json),
         Command::Info => {
             command::info::info(json);

@@ -37,6 +37,18 @@ pub enum End {
     Interrupted,
 }
 
+/// Removes the tables that a run cut off before its first checkpoint has left, so that it can start
+/// again. Errors if one cannot be removed.
+pub fn forget_records(scene: &Scene, folder: &Path) -> io::Result<()> {
+    for record in &scene.records {
+        let table = folder.join(format!("{}.csv", record.name));
+        if table.exists() {
+            std::fs::remove_file(table)?;
+        }
+    }
+    Ok(())
+}
+
 /// Who watches a run. Told after every batch of steps; answers whether to go on.
 pub trait Watcher {
     /// `steps` have been made so far; `change` is the last relative change of the steady-state

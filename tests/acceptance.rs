@@ -4,7 +4,7 @@
 mod common;
 
 use common::Budget;
-use psmrt::cases::{Bench, CASES, Case, Claim, Golden, drifts};
+use psmrt::cases::{Bench, CASES, Case, Claim, Golden, drifts, steadiness};
 use std::path::Path;
 
 fn golden() -> &'static Path {
@@ -22,8 +22,9 @@ fn holds(name: &str, budget: &mut Budget) {
     let mut bench = Bench::new(golden(), None, |_| {});
     let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
     budget.spend(bench.cell_updates());
-    for claim in (case.judge)(&files, &rows).unwrap() {
-        let Claim { what, measured, allowed, why } = &claim;
+    let steady = steadiness(bench.engine_name().word(), &bench.settled());
+    for claim in (case.judge)(&files, &rows).unwrap().iter().chain(&steady) {
+        let Claim { what, measured, allowed, why } = claim;
         println!("{name}: {what}: {measured:.3e} in {allowed:?}");
         assert!(claim.holds(), "{name}: {what}: {measured} is not in {allowed:?} ({why})");
     }
@@ -37,6 +38,21 @@ fn holds(name: &str, budget: &mut Budget) {
 #[test]
 fn poiseuille_flow_holds_its_claims() {
     holds("poiseuille", &mut Budget::oracle(5_000_000));
+}
+
+#[test]
+fn flow_in_a_duct_holds_its_claims() {
+    holds("duct", &mut Budget::oracle(6_000_000));
+}
+
+#[test]
+fn a_sphere_in_a_stream_holds_its_claims() {
+    holds("sphere_drag", &mut Budget::oracle(62_000_000));
+}
+
+#[test]
+fn seepage_through_a_bed_holds_its_claims() {
+    holds("seepage", &mut Budget::oracle(28_000_000));
 }
 
 #[test]
@@ -67,6 +83,16 @@ fn committed_suspensions_hold_their_claims() {
 #[test]
 fn committed_confusion_table_holds_its_claims() {
     holds("conformance", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_errors_of_the_kernel_stay_within_their_bounds() {
+    holds("kernel_parity", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_speeds_of_the_kernel_are_above_the_oracles() {
+    holds("kernel_speed", &mut Budget::oracle(0));
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod common;
 use common::cuts::{assert_close, cut};
 use common::random::Random;
 use common::sphere_quadrature::fraction_by_quadrature;
-use psmrt::kernel::{sampled_fraction, solid_fraction};
+use psmrt::kernel::{sampled_fraction, solid_fraction, solid_fractions};
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
@@ -34,6 +34,28 @@ fn fractions_of_all_cells_add_up_to_the_volume_of_the_sphere() {
         }
         // Some 400 cut cells, each off by up to 1e-13 at this radius.
         assert_close(sum, 4.0 / 3.0 * PI * radius.powi(3), 1e-10);
+    }
+}
+
+#[test]
+fn fractions_of_all_cells_at_once_are_those_of_each() {
+    let mut random = Random(14);
+    for _ in 0..40 {
+        let (centre, radius) = (random.vector(3.0), random.between(0.1, 9.0));
+        let mut touched = 0;
+        solid_fractions(centre.into(), radius, |cell, found| {
+            let from_cell = centre - Vec3::from(cell.map(|i| i as f64 + 0.5));
+            // Terms up to the radius cubed, some 700, in another order.
+            assert_close(found, solid_fraction(from_cell.into(), radius), 1e-12);
+            touched += 1;
+        });
+        let all = (0..26 * 26 * 26).map(|i| [i % 26, i / 26 % 26, i / 676].map(|i| i - 13));
+        // Round-off may make a cell of next to nothing of one that is barely touched.
+        let expected = all.filter(|cell| {
+            let from_cell = centre - Vec3::from(cell.map(|i| f64::from(i) + 0.5));
+            solid_fraction(from_cell.into(), radius) > 1e-12
+        });
+        assert!(touched >= expected.count());
     }
 }
 

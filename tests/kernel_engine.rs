@@ -201,6 +201,14 @@ fn unknown_adapter_is_an_error_that_lists_the_known_ones() {
     assert!(stdout(&psmrt(&["info"])).contains(known.as_str()));
 }
 
+fn adapter_for_the_oracle_is_an_error() {
+    let scene = "golden/poiseuille/scene.toml";
+    let output = psmrt(&["check", scene, "--engine", "reference", "--adapter", "llvmpipe"]);
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(message.contains("llvmpipe") && message.contains("--engine wgpu"), "{message}");
+}
+
 fn box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available() {
     let gpu = psmrt::kernel::Gpu::open_like_hardware(1 << 16).unwrap();
     // One direction of 32³ cells needs 128 KiB and a little, a binding has 64.
@@ -226,6 +234,7 @@ fn main() -> ExitCode {
             "run_on_the_command_line_keeps_its_engine_and_goes_on_with_it",
             run_on_the_command_line_keeps_its_engine_and_goes_on_with_it,
         ),
+        ("adapter_for_the_oracle_is_an_error", adapter_for_the_oracle_is_an_error),
         (
             "unknown_adapter_is_an_error_that_lists_the_known_ones",
             unknown_adapter_is_an_error_that_lists_the_known_ones,

@@ -17,6 +17,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &[],
     rows: "cost.csv",
+    full: "cargo run --release --example model_cost made these rows; minutes",
     measure: |bench| bench.literature(CASE.name, CASE.rows),
     judge,
     draw,

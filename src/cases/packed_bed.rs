@@ -32,6 +32,14 @@ pub enum Packing {
     Fcc,
 }
 
+impl Packing {
+    /// Nine spheres in a cube of two diameters.
+    pub const SMALL: Packing = Packing::Random { side: 2.0, count: 9, seed: 1 };
+}
+
+/// Porosity of [`Packing::SMALL`].
+pub const POROSITY_OF_SMALL: f64 = 1.0 - 9.0 * PI / 6.0 / 8.0;
+
 /// One run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bed {

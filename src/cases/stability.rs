@@ -25,6 +25,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &[],
     rows: "bed_force.csv",
+    full: "cargo run --release -- stability --out golden/stability made these rows; an hour or two, and it can be cut off",
     measure,
     judge,
     draw,

@@ -30,16 +30,22 @@ impl Settled {
             &finished.record(&scene.records[steady.record].name)?,
             steady.column_name(&scene.records),
         )?;
-        let [.., before, last, now] = values[..] else {
+        let Some((change, left)) = drift(&values) else {
             return Err(CaseError::Table(format!("{run}: too few rows to be steady")));
         };
-        let change = ((now - last) / now).abs();
-        let ratio = (now - last) / (last - before);
-        let left =
-            if ratio > 0.0 && ratio < 1.0 { change * ratio / (1.0 - ratio) } else { change };
         let (steps, tolerance) = (finished.engine.steps(), steady.tolerance);
         Ok(Settled { run, steps, tolerance, change, left })
     }
+}
+
+/// Change over the last window, and what is still to go; `None` of fewer than three values.
+fn drift(values: &[f64]) -> Option<(f64, f64)> {
+    let &[.., before, last, now] = values else { return None };
+    let change = ((now - last) / now).abs();
+    let ratio = (now - last) / (last - before);
+    // c (r + r² + ...) = c r/(1 - r)
+    let left = if ratio > 0.0 && ratio < 1.0 { change * ratio / (1.0 - ratio) } else { change };
+    Some((change, left))
 }
 
 /// The values of a column, time by time, summed over the rows (grains) of each.
@@ -69,4 +75,39 @@ pub fn steadiness(engine: &str, runs: &[Settled]) -> Option<Claim> {
               that creeps could pass that with far to go, so the ratio of its last changes is looked at. \
               Ten times the tolerance is below what each case allows for other reasons",
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Settled, drift, steadiness};
+
+    /// A run whose value approaches 1 by the factor `ratio` from row to row, taken at the first row that
+    /// changes by less than `tolerance`.
+    fn approach(ratio: f64, tolerance: f64) -> (Settled, f64) {
+        let mut values = vec![0.0, 1.0 - ratio];
+        while (values[values.len() - 1] / values[values.len() - 2] - 1.0).abs() > tolerance {
+            let away = 1.0 - values[values.len() - 1];
+            values.push(1.0 - ratio * away);
+        }
+        let (change, left) = drift(&values).unwrap();
+        let run = Settled { run: String::new(), steps: 0, tolerance, change, left };
+        (run, 1.0 - values[values.len() - 1])
+    }
+
+    #[test]
+    fn what_is_left_to_go_is_what_a_geometric_approach_has_left() {
+        for ratio in [0.3, 0.9, 0.99] {
+            let (run, left) = approach(ratio, 1e-4);
+            // Relative to the last value instead of the limit, 1: another 1 % at most.
+            assert!((run.left / left - 1.0).abs() < 0.02, "{ratio}: {} {left}", run.left);
+        }
+    }
+
+    #[test]
+    fn a_flow_that_creeps_meets_the_criterion_and_fails_the_claim() {
+        let (quick, creeping) = (approach(0.5, 1e-4).0, approach(0.99, 1e-4).0);
+        assert!(steadiness("reference", &[quick.clone()]).unwrap().holds());
+        assert!(!steadiness("reference", &[quick, creeping]).unwrap().holds());
+        assert!(steadiness("reference", &[]).is_none());
+    }
 }

@@ -62,17 +62,15 @@ impl Stream {
         self.reynolds * viscosity(self.tau) / f64::from(self.cells)
     }
 
-    /// Runs it until it is steady and returns its row. Errors if it cannot be run or does not become
-    /// steady; a run that the guard stops has a row that says so.
+    /// Runs it until it is steady and returns its row. A run that the guard stops, or that does not
+    /// become steady, has a row that says so and no numbers. Errors if it cannot be run.
     pub fn row(&self, bench: &mut Bench) -> Result<Vec<String>, CaseError> {
         let mut row = self.start(bench.engine_name().word());
         let before = bench.cell_updates();
         let run = match bench.steady("sphere_drag/scene.toml", &self.changes()) {
-            Err(CaseError::Run(RunError::Stopped(why))) => {
-                let why = why.to_string().replace(',', ";");
-                let numbers = std::iter::repeat_n("0".to_owned(), Self::COLUMNS.len() - 7);
-                row.extend(std::iter::once(why).chain(numbers));
-                return Ok(row);
+            Err(CaseError::Run(RunError::Stopped(why))) => return Ok(none(row, &why.to_string())),
+            Err(CaseError::NotSteady { steps, .. }) => {
+                return Ok(none(row, &format!("not steady after {steps} steps")));
             }
             run => run?,
         };
@@ -114,7 +112,7 @@ impl Stream {
             format!("grains[0].centre=[0.0, {:e}, 0.0]", width * d),
             format!("records[0].every_steps={rows}"),
             format!("records[1].every_steps={rows}"),
-            format!("stop.steps={}", 400 * rows),
+            format!("stop.steps={}", 150 * rows),
             format!("stop.steady.tolerance={tolerance:e}"),
         ];
         changes.extend(collision_changes(self.collision));
@@ -133,4 +131,11 @@ impl Stream {
         let passing = 2.0 * width / self.lattice_velocity();
         (viscous / 3.0).min(passing / 10.0).ceil() as u64
     }
+}
+
+/// A row without results, and why.
+fn none(mut row: Vec<String>, why: &str) -> Vec<String> {
+    row.push(why.replace(',', ";"));
+    row.resize(Stream::COLUMNS.len(), "0".to_owned());
+    row
 }

@@ -1,6 +1,5 @@
 //! Rows of named columns: what a case measures, and what the golden files hold.
 
-use std::fmt::Display;
 use std::path::Path;
 
 use super::CaseError;
@@ -22,14 +21,15 @@ impl Table {
 
     /// Reads a CSV file whose lines that start with `#` are comments. Errors if it cannot be read.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let wrong = |error: &dyn Display| CaseError::Table(format!("{}: {error}", path.display()));
-        let text = std::fs::read_to_string(path).map_err(|error| wrong(&error))?;
-        Self::parse(&text).map_err(|error| wrong(&error))
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| CaseError::Table(format!("{name}: {error}")))?;
+        Self::parse(&name, &text)
     }
 
-    /// The same from the text of such a file.
-    pub fn parse(text: &str) -> Result<Self, CaseError> {
-        let wrong = |error: csv::Error| CaseError::Table(error.to_string());
+    /// The same from a file's text; `name` is what messages call it.
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        let wrong = |error: csv::Error| CaseError::Table(format!("{name}: {error}"));
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
         let rows = reader
@@ -82,6 +82,13 @@ impl Table {
             row[column].parse().map_err(|_| problem())
         };
         self.rows.iter().map(number).collect()
+    }
+
+    /// The values of a column where there are any, in the order of the rows. Errors if one is no number.
+    pub fn numbers_where_given(&self, name: &str) -> Result<Vec<f64>, CaseError> {
+        let column = self.column(name)?;
+        let rows = self.rows.iter().filter(|row| !row[column].is_empty());
+        Table { columns: self.columns.clone(), rows: rows.cloned().collect() }.numbers(name)
     }
 
     /// The one value of a column. Errors unless there is exactly one row.

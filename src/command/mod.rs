@@ -7,12 +7,14 @@ pub mod golden;
 pub mod info;
 pub mod oracle;
 pub mod pack;
+pub mod plan;
 mod profile;
 mod progress;
 pub mod report;
 pub mod resume;
 pub mod run;
 pub mod stability;
+pub mod tradeoff;
 
 use std::path::Path;
 
@@ -139,6 +141,12 @@ fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>,
         SceneError::whole_file(&file.display().to_string(), problem, "change the scene").into()
     };
     if !wants_kernel(scene) {
+        if let (EngineKind::Reference, Some(name)) = (scene.engine, &scene.adapter) {
+            eprintln!(
+                "engine.adapter = \"{name}\" of the scene is not used: engine reference computes on the \
+                 processor"
+            );
+        }
         let engine = ReferenceEngine::new(scene).map_err(|error| refused(error.to_string()))?;
         return Ok(Box::new(engine));
     }
@@ -169,12 +177,22 @@ fn wants_kernel(scene: &Scene) -> bool {
 }
 
 /// The changes of a scene that `--engine` and `--adapter` stand for: they become part of the scene that
-/// the run's folder keeps, so that `resume` goes on with the same.
-pub fn engine_changes(engine: Option<&str>, adapter: Option<&str>) -> Vec<String> {
+/// the run's folder keeps, so that `resume` goes on with the same. Errors where the engine has no use for
+/// an adapter.
+pub fn engine_changes(
+    engine: Option<&str>,
+    adapter: Option<&str>,
+) -> Result<Vec<String>, CommandError> {
+    if let (Some("reference"), Some(name)) = (engine, adapter) {
+        return Err(CommandError::Usage(format!(
+            "--adapter {name}: --engine reference computes on the processor and takes no adapter; \
+             leave one of them out, or take --engine wgpu"
+        )));
+    }
     let engine = engine.or(adapter.map(|_| "wgpu"));
     let kind = engine.map(|engine| format!("engine.kind=\"{engine}\""));
     let adapter = adapter.map(|name| format!("engine.adapter={}", toml_edit::Value::from(name)));
-    kind.into_iter().chain(adapter).collect()
+    Ok(kind.into_iter().chain(adapter).collect())
 }
 
 /// Does the writing of one file and says which file it was when that fails.

@@ -4,7 +4,6 @@
 use std::cell::RefCell;
 use std::io::{self, Read, Write};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use psmrt_reference::coupling::{CoupledStop, FreeGrains};
 use psmrt_reference::directions::{C, Q};
@@ -18,7 +17,7 @@ use thiserror::Error;
 
 use super::bytes::{expect, put_real, put_vector, put_whole, real, vector, whole};
 use super::{BoxMeans, CellState, Engine, EngineStop, free_state};
-use crate::kernel::{Gpu, Kernel, KernelError, KernelTimes, Summary};
+use crate::kernel::{Beginning, Gpu, Kernel, KernelError, KernelTimes, Spent, Summary};
 use crate::scene::{FreePart, Scene};
 
 /// A scene that the kernel cannot start.
@@ -43,7 +42,7 @@ pub struct Profile {
     /// On the device, and the lists of what solids cover.
     pub kernel: KernelTimes,
     /// Moving the free grains.
-    pub grains: Duration,
+    pub grains: Spent,
 }
 
 /// The fluid on a device.
@@ -100,11 +99,11 @@ impl KernelEngine {
         let solids = match &mut self.grains {
             Some((grains, _)) => {
                 let loads = self.kernel.loads()?;
-                let start = Instant::now();
+                let since = self.profile.map(|_| Beginning::now());
                 grains.step(&loads).map_err(CoupledStop::from)?;
                 let solids = grains.solids();
-                if let Some(profile) = &mut self.profile {
-                    profile.grains += start.elapsed();
+                if let (Some(profile), Some(since)) = (&mut self.profile, since) {
+                    profile.grains.add(since);
                 }
                 solids
             }

@@ -49,6 +49,11 @@ impl Growing {
         Ok(())
     }
 
+    /// What a shader is bound to.
+    pub(super) fn resource(&self) -> wgpu::BindingResource<'_> {
+        self.buffer.as_entire_binding()
+    }
+
     pub(super) fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
     }

@@ -8,9 +8,9 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::partial_saturation::SolidOperator;
 use psmrt_reference::setup::Setup;
 
-use super::layout::Layout;
+use super::layout::{Layout, Store};
 use super::numbers::literal;
-use super::streaming::{access, faces, vector_access};
+use super::streaming::{access, faces};
 
 /// Invocations of `summary`, at most: enough to keep a large device busy, few enough to read back.
 const MOST_STRANDS: u32 = 16_384;
@@ -44,15 +44,18 @@ pub(super) enum Work {
     Step {
         /// Whether the solids are in it.
         with_solids: bool,
+        /// Whether it keeps what the loads are worked out from.
+        with_loads: bool,
     },
     /// A step of listed cells.
-    StepListed,
+    StepListed {
+        /// Whether it keeps what the loads are worked out from.
+        with_loads: bool,
+    },
     /// Populations read out.
     Observe,
     /// Sums over the box.
     Summary,
-    /// What each share of a solid receives.
-    Impulses,
 }
 
 impl Work {
@@ -60,10 +63,9 @@ impl Work {
     pub(super) fn entry(self) -> &'static str {
         match self {
             Work::Step { .. } => "step",
-            Work::StepListed => "step_listed",
+            Work::StepListed { .. } => "step_listed",
             Work::Observe => "observe",
             Work::Summary => "summary",
-            Work::Impulses => "impulses",
         }
     }
 }
@@ -71,26 +73,32 @@ impl Work {
 impl Recipe<'_> {
     /// Workgroup of `step`: long in x.
     pub(super) fn workgroup(&self) -> [u32; 2] {
-        let along = self.layout.vectors().next_power_of_two().min(64);
+        let along = self.layout.cells[0].next_power_of_two().min(64);
         [along, 64 / along]
     }
 
     /// Invocations of `summary`.
     pub(super) fn strands(&self) -> u32 {
-        self.layout.places.div_ceil(32).next_multiple_of(64).min(MOST_STRANDS)
+        self.layout.count.div_ceil(32).next_multiple_of(64).min(MOST_STRANDS)
+    }
+
+    /// What of the solids is in `work`, and whether it keeps what the loads are worked out from.
+    pub(super) fn solids_in(&self, work: Work) -> (SolidData, bool) {
+        let (is_in, with_loads) = match work {
+            Work::Step { with_solids, with_loads } => (with_solids, with_loads),
+            Work::StepListed { with_loads } => (true, with_loads),
+            Work::Summary => (true, false),
+            Work::Observe => (false, false),
+        };
+        if is_in { (self.solids, with_loads) } else { (SolidData::None, false) }
     }
 
     /// The shader for `work`.
     pub(super) fn shader(&self, work: Work) -> String {
-        let (solids, listed) = match work {
-            Work::Step { with_solids } => (with_solids, false),
-            Work::StepListed | Work::Summary => (true, true),
-            Work::Observe | Work::Impulses => (false, true),
-        };
-        let steps = matches!(work, Work::Step { .. } | Work::StepListed);
-        let solids = if solids { self.solids } else { SolidData::None };
-        let is_wide = !listed && self.layout.width > 1;
-        let flags = self.flags(solids, listed, is_wide);
+        let listed = !matches!(work, Work::Step { .. });
+        let steps = matches!(work, Work::Step { .. } | Work::StepListed { .. });
+        let (solids, with_loads) = self.solids_in(work);
+        let flags = self.flags(work);
         let mut text = self.constants();
         let mut add = |file: &str| text += &selected(file, &flags);
         if steps || work == Work::Summary {
@@ -107,38 +115,45 @@ impl Recipe<'_> {
                 });
             }
         }
-        if !listed {
-            add(&vector_access(&self.layout));
-        } else {
-            add(include_str!("wgsl/places.wgsl"));
+        add(&access(&self.layout, steps));
+        if listed || with_loads {
             add(include_str!("wgsl/sums.wgsl"));
-            add(&access(&self.layout, steps));
+        }
+        if with_loads {
+            add(include_str!("wgsl/moments_kept.wgsl"));
+        }
+        if listed {
             add(include_str!("wgsl/task.wgsl"));
             add(&faces(&self.setup.domain, &self.layout));
         }
         add(match work {
             Work::Step { .. } => include_str!("wgsl/step.wgsl"),
-            Work::StepListed => include_str!("wgsl/step_listed.wgsl"),
+            Work::StepListed { .. } => include_str!("wgsl/step_listed.wgsl"),
             Work::Observe => include_str!("wgsl/observe.wgsl"),
             Work::Summary => include_str!("wgsl/summary.wgsl"),
-            Work::Impulses => include_str!("wgsl/loads.wgsl"),
         });
-        // Not an alias: naga takes arrays of an alias for another type than arrays of what it stands for.
-        let quad = if is_wide && self.layout.pairs { "vec2<u64>" } else { "real" };
-        let text = with_word(&text, "quad", quad);
-        with_word(&text, "real", if is_wide { "vec4<f32>" } else { "f32" })
+        text
+    }
+
+    /// The shader that adds up the shares of each solid.
+    pub(super) fn gather(&self) -> String {
+        // A workgroup waits for its slowest part, which a software adapter does at some cost: there it has
+        // but one part, eight invocations.
+        let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
+        format!("const LANES = {lanes}u;\n{}", include_str!("wgsl/gather.wgsl"))
     }
 
     /// The names of the models that are on.
-    fn flags(&self, solids: SolidData, listed: bool, is_wide: bool) -> Vec<&'static str> {
+    fn flags(&self, work: Work) -> Vec<&'static str> {
+        let (solids, with_loads) = self.solids_in(work);
         let mut flags = Vec::new();
         let [along, across] = self.workgroup();
-        let (vectors, ny) = (self.layout.vectors(), self.layout.cells[1]);
-        if !vectors.is_multiple_of(along) || !ny.is_multiple_of(across) {
+        let [nx, ny, _] = self.layout.cells;
+        if !nx.is_multiple_of(along) || !ny.is_multiple_of(across) {
             flags.push("RAGGED");
         }
-        if is_wide {
-            flags.push("WIDE");
+        if self.layout.store == Store::Textures {
+            flags.push("TEXTURES");
         }
         let forced = self.setup.body_force.is_some();
         if forced {
@@ -149,8 +164,14 @@ impl Recipe<'_> {
             if solids == SolidData::Moving {
                 flags.push("MOVING");
             }
-            if solids == SolidData::Moving && listed {
+            if solids == SolidData::Moving || with_loads {
+                flags.push("SLOTS");
+            }
+            if solids == SolidData::Moving && matches!(work, Work::StepListed { .. }) {
                 flags.push("MANY");
+            }
+            if with_loads {
+                flags.push("LOADS");
             }
             let operator = self.setup.solid_phase.as_ref().map(|phase| phase.operator);
             if operator == Some(SolidOperator::Superposition) {
@@ -166,6 +187,7 @@ impl Recipe<'_> {
     fn constants(&self) -> String {
         let [nx, ny, nz] = self.layout.cells;
         let [along, across] = self.workgroup();
+        let [step_y, step_z] = self.layout.steps();
         let [s_e, s_eps, s_q, s_nu, s_pi, s_m] = match self.setup.collision {
             Collision::Srt { tau } => [1.0 / tau; 6],
             Collision::Mrt { rates } => [rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m],
@@ -175,9 +197,8 @@ impl Recipe<'_> {
             ("NX", nx),
             ("NY", ny),
             ("NZ", nz),
-            ("WIDTH", self.layout.width),
-            ("VECTORS", self.layout.vectors()),
-            ("ROW_PLACES", self.layout.vectors() * self.layout.width),
+            ("STEP_Y", step_y),
+            ("STEP_Z", step_z),
             ("WORKGROUP_X", along),
             ("WORKGROUP_Y", across),
             ("STRANDS", self.strands()),
@@ -206,14 +227,11 @@ impl Recipe<'_> {
         text + "const G = vec3<f32>(G_X, G_Y, G_Z);\n"
     }
 
-    /// Places of the cells that `step` gets wrong: at faces that are not periodic, and at the ends of
-    /// rows that are no multiple of a vector. In order.
+    /// The cells that `step` gets wrong: those at faces that are not periodic. In order.
     pub(super) fn face_cells(&self) -> Vec<u32> {
         let domain = &self.setup.domain;
-        let is_odd = !self.layout.cells[0].is_multiple_of(self.layout.width);
-        let is_solid_face = |axis: usize, side: usize| {
-            domain.faces().axis(axis)[side] != Face::Periodic || (axis == 0 && is_odd)
-        };
+        let is_solid_face =
+            |axis: usize, side: usize| domain.faces().axis(axis)[side] != Face::Periodic;
         let [nx, ny, nz] = self.layout.cells;
         let mut cells = Vec::new();
         for z in 0..nz {
@@ -234,27 +252,8 @@ impl Recipe<'_> {
                 }
             }
         }
-        for cell in &mut cells {
-            *cell = self.layout.place(*cell);
-        }
-        cells.sort_unstable();
         cells
     }
-}
-
-/// `text` with another word in the place of `word` wherever it stands alone.
-fn with_word(text: &str, word: &str, other: &str) -> String {
-    let is_part = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
-    let mut done = String::with_capacity(text.len());
-    let mut rest = text;
-    while let Some(position) = rest.find(word) {
-        let (before, after) = (&rest[..position], &rest[position + word.len()..]);
-        let alone = !is_part(before.chars().last()) && !is_part(after.chars().next());
-        done += before;
-        done += if alone { other } else { word };
-        rest = after;
-    }
-    done + rest
 }
 
 /// The lines of `file` that stand with these flags.

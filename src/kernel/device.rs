@@ -23,8 +23,13 @@ pub struct AdapterFacts {
     pub max_binding_bytes: u64,
     /// Storage bindings of one shader.
     pub max_bindings: u32,
-    /// Whether its shaders know whole numbers of 64 bits.
-    pub has_int64: bool,
+    /// Storage textures of one shader.
+    pub max_texture_bindings: u32,
+    /// Cells along a side of a three-dimensional texture.
+    pub max_texture_side: u32,
+    /// Whether values of cells are kept in textures: shaders that run on the processor read those
+    /// faster.
+    pub prefers_textures: bool,
 }
 
 impl AdapterFacts {
@@ -44,7 +49,9 @@ impl AdapterFacts {
             max_buffer_bytes: limits.max_buffer_size,
             max_binding_bytes: limits.max_storage_buffer_binding_size,
             max_bindings: limits.max_storage_buffers_per_shader_stage,
-            has_int64: adapter.features().contains(wgpu::Features::SHADER_INT64),
+            max_texture_bindings: limits.max_storage_textures_per_shader_stage,
+            max_texture_side: limits.max_texture_dimension_3d,
+            prefers_textures: info.device_type == DeviceType::Cpu,
         }
     }
 
@@ -81,8 +88,6 @@ pub struct Gpu {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     facts: AdapterFacts,
-    /// Whether cells are worked on one at a time, as on all hardware.
-    cell_by_cell: bool,
     /// What the driver reported outside of any call, the first only.
     failure: Arc<Mutex<Option<String>>>,
 }
@@ -112,13 +117,13 @@ impl Gpu {
         Self::open_adapter(adapter)
     }
 
-    /// The same for testing what other adapters run: cells worked on one at a time as on hardware, also
-    /// where a software adapter would take four at once, and at most so many bytes in a binding.
+    /// The same for testing what hardware runs: populations in buffers, also on a software adapter, and
+    /// at most so many bytes in a binding.
     pub fn open_like_hardware(max_binding_bytes: u64) -> Result<Arc<Self>, KernelError> {
         let gpu = Self::open(None)?;
         match Arc::try_unwrap(gpu) {
             Ok(mut gpu) => {
-                gpu.cell_by_cell = true;
+                gpu.facts.prefers_textures = false;
                 gpu.facts.max_binding_bytes = gpu.facts.max_binding_bytes.min(max_binding_bytes);
                 Ok(Arc::new(gpu))
             }
@@ -132,7 +137,6 @@ impl Gpu {
             label: Some("psmrt"),
             // All that the adapter has: the defaults are those of a telephone.
             required_limits: adapter.limits(),
-            required_features: adapter.features() & wgpu::Features::SHADER_INT64,
             memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         };
@@ -157,13 +161,7 @@ impl Gpu {
                 note_loss(format!("the device was lost: {message}"));
             }
         });
-        let cell_by_cell = !facts.is_software();
-        Ok(Arc::new(Gpu { device, queue, facts, cell_by_cell, failure }))
-    }
-
-    /// Cells that are worked on at once.
-    pub(super) fn width(&self) -> u64 {
-        if self.cell_by_cell { 1 } else { 4 }
+        Ok(Arc::new(Gpu { device, queue, facts, failure }))
     }
 
     /// What the adapter says about itself.

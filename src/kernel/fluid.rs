@@ -3,18 +3,18 @@
 
 use std::cell::{OnceCell, RefCell};
 use std::sync::Arc;
-use std::time::Instant;
 
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::Solid;
-use wgpu::BufferUsages;
+use wgpu::{BufferUsages, TextureFormat};
 
-use super::buffers::{Growing, STORAGE};
+use super::buffers::Growing;
 use super::compose::{Recipe, SolidData, Work};
 use super::device::Gpu;
 use super::error::KernelError;
+use super::field::Field;
 use super::layout::Layout;
 use super::numbers::{count, single};
 use super::pipeline::Pipeline;
@@ -29,7 +29,7 @@ pub struct Kernel {
     pub(super) setup: Setup,
     pub(super) layout: Layout,
     /// Two copies of the populations; a step reads one and writes the other.
-    pub(super) copies: [Vec<wgpu::Buffer>; 2],
+    pub(super) copies: [Vec<Field>; 2],
     /// The copy that holds the state.
     pub(super) current: usize,
     /// Whether the state is that after a collision (as from the first step on) or before it.
@@ -42,10 +42,12 @@ pub struct Kernel {
     pub(super) list_count: u32,
     pub(super) tasks: Tasks,
     pub(super) step: Pipeline,
+    /// The same that keeps the moments of covered cells, for the loads.
+    pub(super) step_with_loads: OnceCell<Pipeline>,
     pub(super) step_listed: OnceCell<Pipeline>,
+    pub(super) step_listed_with_loads: OnceCell<Pipeline>,
     pub(super) observe: OnceCell<Pipeline>,
     pub(super) summary: OnceCell<Pipeline>,
-    pub(super) impulses: OnceCell<Pipeline>,
     pub(super) gather: OnceCell<Pipeline>,
     /// Populations and parts of sums on their way back.
     pub(super) seen: RefCell<Growing>,
@@ -58,7 +60,6 @@ pub struct Kernel {
 pub(super) struct Tasks {
     pub(super) all: wgpu::Buffer,
     pub(super) listed: wgpu::Buffer,
-    pub(super) shares: wgpu::Buffer,
     pub(super) observed: wgpu::Buffer,
 }
 
@@ -69,7 +70,6 @@ impl Tasks {
         Ok(Tasks {
             all: task("all cells")?,
             listed: task("listed cells")?,
-            shares: task("shares")?,
             observed: task("observed cells")?,
         })
     }
@@ -80,7 +80,7 @@ impl Kernel {
     /// taken for true where one has a velocity or a spin. The set-up must have passed its checks. Errors
     /// if the device cannot hold it.
     pub fn new(gpu: &Arc<Gpu>, setup: Setup, can_move: bool) -> Result<Self, KernelError> {
-        let layout = Layout::new(&setup.domain, gpu.facts(), gpu.width())?;
+        let layout = Layout::new(&setup.domain, gpu.facts())?;
         super::memory::check(gpu.facts(), &layout)?;
         let still = Vec3::zeros();
         let solids = match &setup.solid_phase {
@@ -95,10 +95,13 @@ impl Kernel {
         let data = solids.as_ref().map_or(SolidData::None, |solids| solids.data);
         let recipe = Recipe { setup: &setup, layout, solids: data };
         let with_solids = solids.as_ref().is_some_and(|solids| solids.in_every_cell);
-        let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids })?;
+        let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids, with_loads: false })?;
         let face_cells = recipe.face_cells();
         let copy = || {
-            let make = |binding| gpu.buffer("populations", layout.bytes(binding), STORAGE);
+            let make = |binding| {
+                let directions = layout.directions(binding);
+                Field::new(gpu, layout, "populations", directions, TextureFormat::R32Float)
+            };
             (0..layout.bindings()).map(make).collect::<Result<Vec<_>, _>>()
         };
         let mut kernel = Kernel {
@@ -111,10 +114,11 @@ impl Kernel {
             list_count: 0,
             tasks: Tasks::new(gpu)?,
             step,
+            step_with_loads: OnceCell::new(),
             step_listed: OnceCell::new(),
+            step_listed_with_loads: OnceCell::new(),
             observe: OnceCell::new(),
             summary: OnceCell::new(),
-            impulses: OnceCell::new(),
             gather: OnceCell::new(),
             seen: RefCell::new(Growing::new(gpu, "what is read back")?),
             watch: Watch::default(),
@@ -209,11 +213,8 @@ impl Kernel {
     fn start(&mut self, row: impl Fn(usize) -> Vec<f32>) -> Result<(), KernelError> {
         for a in 0..Q {
             let (binding, start) = self.layout.direction(a);
-            let buffer = &self.copies[self.current][binding as usize];
-            let row = self.layout.placed(&row(a));
-            self.gpu.queue.write_buffer(buffer, 4 * u64::from(start), bytemuck::cast_slice(&row));
-            // Uploads wait in host memory until they are submitted.
-            self.gpu.queue.submit([]);
+            let field = &self.copies[self.current][binding as usize];
+            field.write(&self.gpu, start, bytemuck::cast_slice(&row(a)));
         }
         self.is_collided = false;
         self.gpu.wait()
@@ -225,37 +226,31 @@ impl Kernel {
         let tau = self.setup.collision.tau();
         if let (Some(phase), Some(on_device)) = (&mut self.setup.solid_phase, &mut self.solids) {
             phase.solids = solids;
-            let start = Instant::now();
+            let since = self.watch.begin();
             on_device.list(&self.setup.domain, phase);
-            self.watch.add(start, |times| &mut times.coverage);
-            let start = Instant::now();
+            self.watch.add(since, |times| &mut times.coverage);
+            let since = self.watch.begin();
             on_device.upload(&self.gpu, phase, tau)?;
-            self.watch.add(start, |times| &mut times.transfers);
+            self.watch.add(since, |times| &mut times.transfers);
         }
         self.list_cells()
     }
 
     /// Lists the cells that the step of all cells does not do right.
     pub(super) fn list_cells(&mut self) -> Result<(), KernelError> {
-        let mut cells = self.face_cells.clone();
-        let mut many = 0;
-        if let Some(solids) = &self.solids {
-            many = solids.many;
-            let listed = solids.listed_places().iter();
-            if self.face_cells.is_empty() {
-                cells.extend(listed);
-            } else {
-                // Face cells come in order.
-                cells.extend(listed.filter(|cell| self.face_cells.binary_search(cell).is_err()));
+        let (cells, many) = match &self.solids {
+            None => (self.face_cells.clone(), 0),
+            Some(solids) => {
+                let mut cells = solids.listed_cells();
+                cells.extend(self.face_cells.iter().filter(|&&cell| !solids.lists(cell)));
+                (cells, solids.many)
             }
-            let task = [solids.share_count, 1, 1, many];
-            self.gpu.queue.write_buffer(&self.tasks.shares, 0, bytemuck::bytes_of(&task));
-        }
+        };
         self.list_count = count(cells.len());
         self.list.fill(&self.gpu, &cells)?;
         let listed = [self.list_count, 1, 1, many];
         self.gpu.queue.write_buffer(&self.tasks.listed, 0, bytemuck::bytes_of(&listed));
-        let all = [self.layout.places, 0, u32::from(self.is_collided), many];
+        let all = [self.layout.count, 0, u32::from(self.is_collided), many];
         self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&all));
         Ok(())
     }

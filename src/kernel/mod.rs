@@ -3,12 +3,12 @@
 //! | file | what it does |
 //! |---|---|
 //! | `device.rs` | adapters, and the device opened on one |
-//! | `layout.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
+//! | `layout.rs`, `field.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `wgsl/single.wgsl`, `wgsl/moments.wgsl` | collision, with one relaxation time and with many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `coverage.rs`, `sphere.rs`, `solids.rs` | what the solids cover, and its tables on the device |
-//! | `wgsl/loads.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
+//! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
 //! | `fluid.rs`, `steps.rs`, `sight.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
 //!
 //! The populations are kept as they are after a collision, less their weights, direction by direction,
@@ -24,6 +24,7 @@ mod compose;
 mod coverage;
 mod device;
 mod error;
+mod field;
 mod fluid;
 mod layout;
 mod memory;
@@ -41,5 +42,5 @@ pub use device::{AdapterFacts, Gpu, adapters};
 pub use error::KernelError;
 pub use fluid::Kernel;
 pub use sight::Summary;
-pub use sphere::{sampled_fraction, solid_fraction};
-pub use watch::KernelTimes;
+pub use sphere::{sampled_fraction, solid_fraction, solid_fractions};
+pub use watch::{Beginning, KernelTimes, Spent};

@@ -3,6 +3,7 @@
 use super::compose::{Recipe, SolidData, Work};
 use super::device::Gpu;
 use super::error::KernelError;
+use super::solids::SolidTable;
 
 /// A group of bindings that a shader may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,18 +12,14 @@ pub(super) enum Slot {
     Old,
     /// The populations that are written.
     New,
-    /// Weight and velocity of the solids in each cell.
-    Solids,
-    /// What cells have in which several solids meet.
-    Excess,
+    /// What is known of the solids in cells.
+    Solid(SolidTable),
     /// Which cells are worked on.
     Task,
     /// Their list.
     List,
     /// What is read back.
     Seen,
-    /// The shares of the solids.
-    Shares,
 }
 
 /// A shader made ready.
@@ -35,30 +32,31 @@ pub(super) struct Pipeline {
 impl Pipeline {
     /// The pipeline for `work`. Errors if the driver refuses the shader.
     pub(super) fn new(gpu: &Gpu, recipe: &Recipe<'_>, work: Work) -> Result<Self, KernelError> {
-        let with_solids = recipe.solids != SolidData::None;
         let mut slots = vec![Slot::Old];
         match work {
-            Work::Step { with_solids } => {
-                slots.push(Slot::New);
-                if with_solids {
-                    slots.push(Slot::Solids);
-                }
-            }
-            Work::StepListed => slots.extend([Slot::New, Slot::Task, Slot::List]),
+            Work::Step { .. } => slots.push(Slot::New),
+            Work::StepListed { .. } => slots.extend([Slot::New, Slot::Task, Slot::List]),
             Work::Observe => slots.extend([Slot::Task, Slot::List, Slot::Seen]),
             Work::Summary => slots.extend([Slot::Task, Slot::Seen]),
-            Work::Impulses => slots.extend([Slot::Task, Slot::Shares]),
         }
-        if with_solids && matches!(work, Work::StepListed | Work::Summary) {
-            slots.extend([Slot::Solids, Slot::Excess]);
-        }
+        let (solids, with_loads) = recipe.solids_in(work);
+        let listed = matches!(work, Work::StepListed { .. });
+        let tables = [
+            (SolidTable::CellWeights, solids == SolidData::Fixed),
+            (SolidTable::Slots, solids == SolidData::Moving || with_loads),
+            (SolidTable::Records, solids == SolidData::Moving),
+            (SolidTable::Excess, solids == SolidData::Moving && listed),
+            (SolidTable::Moments, with_loads),
+        ];
+        let needed = tables.into_iter().filter(|&(_, is_needed)| is_needed);
+        slots.extend(needed.map(|(table, _)| Slot::Solid(table)));
         let raw = compiled(gpu, &recipe.shader(work), work.entry())?;
         Ok(Pipeline { raw, slots })
     }
 
     /// The pipeline that adds up the shares of each solid.
-    pub(super) fn gather(gpu: &Gpu) -> Result<Self, KernelError> {
-        let raw = compiled(gpu, include_str!("wgsl/gather.wgsl"), "gather")?;
+    pub(super) fn gather(gpu: &Gpu, recipe: &Recipe<'_>) -> Result<Self, KernelError> {
+        let raw = compiled(gpu, &recipe.gather(), "gather")?;
         Ok(Pipeline { raw, slots: Vec::new() })
     }
 
@@ -70,18 +68,15 @@ impl Pipeline {
         &self.slots
     }
 
-    /// Binds buffers, whole, by the numbers of their bindings.
+    /// Binds buffers and textures, whole, by the numbers of their bindings.
     pub(super) fn bind(
         &self,
         gpu: &Gpu,
-        buffers: &[(u32, &wgpu::Buffer)],
+        resources: Vec<(u32, wgpu::BindingResource<'_>)>,
     ) -> Result<wgpu::BindGroup, KernelError> {
-        let entries: Vec<wgpu::BindGroupEntry<'_>> = buffers
-            .iter()
-            .map(|&(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
+        let entries: Vec<wgpu::BindGroupEntry<'_>> = resources
+            .into_iter()
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
             .collect();
         gpu.checked(|| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {

@@ -1,7 +1,5 @@
 //! What can be seen of the fluid: loads, populations, sums over the box.
 
-use std::time::Instant;
-
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Load;
@@ -23,9 +21,9 @@ impl Kernel {
     /// Force and torque on each solid during the last step.
     pub fn loads(&self) -> Result<Vec<Load>, KernelError> {
         let Some(solids) = &self.solids else { return Ok(Vec::new()) };
-        let start = Instant::now();
+        let since = self.watch.begin();
         let bytes = self.gpu.read(solids.loads.buffer(), 32 * u64::from(solids.solid_count))?;
-        self.watch.add(start, |times| &mut times.transfers);
+        self.watch.add(since, |times| &mut times.transfers);
         let rows: &[[f32; 4]] = bytemuck::cast_slice(&bytes);
         let vector = |row: &[f32; 4]| Vec3::new(row[0].into(), row[1].into(), row[2].into());
         Ok(rows
@@ -40,8 +38,7 @@ impl Kernel {
         let mut found = Vec::with_capacity(cells.len());
         let most = usize::try_from(self.gpu.facts().max_binding_bytes).unwrap_or(usize::MAX);
         for slice in cells.chunks(SLICE.min(most / (4 * Q)).max(1)) {
-            let numbers: Vec<u32> =
-                slice.iter().map(|&cell| self.layout.place(count(cell))).collect();
+            let numbers: Vec<u32> = slice.iter().map(|&cell| count(cell)).collect();
             let mut list = Growing::new(&self.gpu, "list of cells")?;
             list.fill(&self.gpu, &numbers)?;
             let bytes = (slice.len() * Q * 4) as u64;
@@ -87,7 +84,7 @@ impl Kernel {
         let bytes = u64::from(strands) * 32;
         self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
         let many = self.solids.as_ref().map_or(0, |solids| solids.many);
-        let task = [self.layout.places, 0, u32::from(self.is_collided), many];
+        let task = [self.layout.count, 0, u32::from(self.is_collided), many];
         self.look(summary, &self.list, task, strands)?;
         let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
         Ok(Summary::of(bytemuck::cast_slice(&bytes), &self.layout))
@@ -126,7 +123,7 @@ impl Summary {
             mass_flux: Vec3::new(sum(1), sum(2), sum(3)) / n,
             bare_speed: most(4).sqrt(),
             speed: most(5).sqrt(),
-            broken: broken.and_then(|place| layout.cell(place)).map(|cell| cell as usize),
+            broken: broken.map(|cell| cell as usize),
         }
     }
 }

@@ -12,7 +12,6 @@ use std::f64::consts::PI;
 pub fn solid_fraction(centre: [f64; 3], radius: f64) -> f64 {
     let near = centre.map(|c| (c.abs() - 0.5).max(0.0));
     let far = centre.map(|c| c.abs() + 0.5);
-    let square = |v: [f64; 3]| v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     if square(near) >= radius * radius {
         return 0.0;
     }
@@ -30,6 +29,107 @@ pub fn solid_fraction(centre: [f64; 3], radius: f64) -> f64 {
         volume += if lower.is_multiple_of(2) { part } else { -part };
     }
     volume.clamp(0.0, 1.0)
+}
+
+/// Tells the solid fraction of each cell that a ball of `radius` about `centre` touches, by the cell's
+/// lowest corner. The same sum as [`solid_fraction`]; cells that share a corner share its volume, and
+/// corners on a line or in a plane share the parts of it that depend on two axes or on one.
+pub fn solid_fractions(centre: [f64; 3], radius: f64, mut tell: impl FnMut([i64; 3], f64)) {
+    let axes = centre.map(|c| Nodes::along(c, radius));
+    let [x, y, z] = &axes;
+    let wedges = [[x, y], [y, z], [z, x]].map(|[a, b]| {
+        let wedge = |i: usize| half_wedge(a.at[i % a.len()], b.at[i / a.len()], radius);
+        (0..a.len() * b.len()).map(wedge).collect::<Vec<f64>>()
+    });
+    let eighth = PI * radius * radius * radius / 6.0;
+    let volume = |i: usize, j: usize, k: usize| {
+        let at = [x.at[i], y.at[j], z.at[k]];
+        let part = if square(at) <= radius * radius {
+            at[0] * at[1] * at[2]
+        } else {
+            eighth - (x.caps[i] + y.caps[j] + z.caps[k])
+                + wedges[0][i + j * x.len()]
+                + wedges[1][j + k * y.len()]
+                + wedges[2][k + i * z.len()]
+        };
+        x.signs[i] * y.signs[j] * z.signs[k] * part
+    };
+    let mut volumes = Vec::with_capacity(x.len() * y.len() * z.len());
+    for k in 0..z.len() {
+        for j in 0..y.len() {
+            volumes.extend((0..x.len()).map(|i| volume(i, j, k)));
+        }
+    }
+    let (row, plane) = (x.len(), x.len() * y.len());
+    for k in 0..z.len() - 1 {
+        for j in 0..y.len() - 1 {
+            for i in 0..x.len() - 1 {
+                let ends = [(x, i), (y, j), (z, k)].map(|(nodes, i)| nodes.ends(i));
+                if square(ends.map(|(near, _)| near)) >= radius * radius {
+                    continue;
+                }
+                let cell = [x.first + i as i64, y.first + j as i64, z.first + k as i64];
+                if square(ends.map(|(_, far)| far)) <= radius * radius {
+                    tell(cell, 1.0);
+                    continue;
+                }
+                let at = i + j * row + k * plane;
+                let edge = |at: usize| volumes[at + 1] - volumes[at];
+                let fraction =
+                    (edge(at + row + plane) - edge(at + plane)) - (edge(at + row) - edge(at));
+                if fraction > 0.0 {
+                    tell(cell, fraction.min(1.0));
+                }
+            }
+        }
+    }
+}
+
+/// Corners of cells along one axis, from below a ball to above it.
+struct Nodes {
+    /// The lowest.
+    first: i64,
+    /// Their places against the centre.
+    offsets: Vec<f64>,
+    /// Their distances from the centre, at most the radius, and on which side they lie.
+    at: Vec<f64>,
+    signs: Vec<f64>,
+    /// What of an eighth of the ball lies beyond them.
+    caps: Vec<f64>,
+}
+
+impl Nodes {
+    fn along(centre: f64, radius: f64) -> Self {
+        let first = (centre - radius).floor();
+        let last = (centre + radius).floor() + 1.0;
+        let offsets: Vec<f64> = (0..)
+            .map(|i| first + f64::from(i) - centre)
+            .take_while(|x| *x <= last - centre)
+            .collect();
+        let at: Vec<f64> = offsets.iter().map(|x| x.abs().min(radius)).collect();
+        Nodes {
+            #[expect(clippy::cast_possible_truncation, reason = "coordinates are far below 2^63")]
+            first: first as i64,
+            signs: offsets.iter().map(|x| x.signum()).collect(),
+            caps: at.iter().map(|&x| quarter_cap(x, radius)).collect(),
+            offsets,
+            at,
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.offsets.len()
+    }
+
+    /// Distances of the nearest and of the farthest point of a cell from the centre, along this axis.
+    fn ends(&self, i: usize) -> (f64, f64) {
+        let (low, high) = (self.offsets[i], self.offsets[i + 1]);
+        (low.max(-high).max(0.0), high.max(-low))
+    }
+}
+
+fn square([x, y, z]: [f64; 3]) -> f64 {
+    x * x + y * y + z * z
 }
 
 /// Volume that the ball of radius `a` about the origin shares with the box from there to `corner`, whose

@@ -19,12 +19,8 @@ impl Kernel {
     pub fn save(&self, mut row: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         for a in 0..Q {
             let (binding, start) = self.layout.direction(a);
-            let bytes = u64::from(self.layout.places) * 4;
-            let buffer = &self.copies[self.current][binding as usize];
-            let read = self.gpu.read_from(buffer, u64::from(start) * 4, bytes);
-            let placed = read.map_err(io::Error::other)?;
-            let placed: &[u32] = bytemuck::cast_slice(&placed);
-            row(bytemuck::cast_slice(&self.layout.gathered(placed)))?;
+            let field = &self.copies[self.current][binding as usize];
+            row(&field.read(&self.gpu, start).map_err(io::Error::other)?)?;
         }
         Ok(())
     }
@@ -39,16 +35,9 @@ impl Kernel {
         let mut values = vec![0_u32; self.setup.domain.cell_count()];
         for a in 0..Q {
             row(bytemuck::cast_slice_mut(&mut values))?;
-            let placed = self.layout.placed(&values);
             let (binding, start) = self.layout.direction(a);
-            let buffer = &self.copies[self.current][binding as usize];
-            self.gpu.queue.write_buffer(
-                buffer,
-                4 * u64::from(start),
-                bytemuck::cast_slice(&placed),
-            );
-            // Uploads wait in host memory until they are submitted.
-            self.gpu.queue.submit([]);
+            let field = &self.copies[self.current][binding as usize];
+            field.write(&self.gpu, start, bytemuck::cast_slice(&values));
         }
         self.is_collided = is_collided;
         if let Some(solids) = &mut self.solids {

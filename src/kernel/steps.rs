@@ -1,7 +1,9 @@
 //! Steps of the fluid, and the loads on the solids.
 
-use super::compose::{ROW, SolidData, Work};
+use super::buffers::Growing;
+use super::compose::{ROW, Work};
 use super::error::KernelError;
+use super::field::Field;
 use super::fluid::Kernel;
 use super::pipeline::{Pipeline, Slot};
 
@@ -18,7 +20,7 @@ impl Kernel {
             left -= 1;
             self.first_step(with_loads && left == 0)?;
         }
-        let per_submission = (SUBMISSION / u64::from(self.layout.places)).max(1);
+        let per_submission = (SUBMISSION / u64::from(self.layout.count)).max(1);
         while left > 0 {
             let now = left.min(per_submission);
             left -= now;
@@ -32,26 +34,34 @@ impl Kernel {
 
     /// The first step: the populations are there before their collision.
     fn first_step(&mut self, with_loads: bool) -> Result<(), KernelError> {
-        let task = [self.layout.places, 0, 0, self.solids.as_ref().map_or(0, |solids| solids.many)];
-        self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&task));
-        if let Some(solids) = &self.solids {
-            let task = [solids.share_count, 1, 0, solids.many];
-            self.gpu.queue.write_buffer(&self.tasks.shares, 0, bytemuck::bytes_of(&task));
+        let since = self.watch.begin();
+        // All cells, and again those in which several solids meet: what is more of them goes by the list.
+        let many = self.solids.as_ref().map_or(0, |solids| solids.many);
+        let tasks = [
+            (&self.tasks.all, [self.layout.count, 0, 0, many]),
+            (&self.tasks.listed, [many, 1, 0, many]),
+        ];
+        let with_loads = with_loads && self.has_solids();
+        let listed = self.listed_pipeline(with_loads)?;
+        let mut groups = Vec::new();
+        for (buffer, task) in &tasks {
+            self.gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(task));
+            groups.push(self.bind(listed, buffer, None)?);
         }
-        let listed = self.pipeline(&self.step_listed, Work::StepListed)?;
-        let group = self.bind(listed, &self.tasks.all, None)?;
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(listed.raw());
-            pass.set_bind_group(0, &group, &[]);
-            dispatch(&mut pass, self.layout.places);
+            for (group, (_, [count, ..])) in groups.iter().zip(&tasks) {
+                pass.set_bind_group(0, group, &[]);
+                dispatch(&mut pass, *count);
+            }
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.watch.wait(&self.gpu, |times| &mut times.fluid)?;
+        self.watch.wait(&self.gpu, since, |times| &mut times.fluid)?;
         if with_loads {
-            self.submit_loads(self.current)?;
+            self.submit_loads()?;
         }
         self.current = 1 - self.current;
         self.is_collided = true;
@@ -61,84 +71,103 @@ impl Kernel {
 
     /// Encodes and submits `steps` steps.
     fn submit_steps(&mut self, steps: u64, with_loads: bool) -> Result<(), KernelError> {
-        let here = self.current;
-        let mut all = Vec::new();
-        let mut listed = Vec::new();
-        let list_pipeline = if self.list_count > 0 {
-            Some(self.pipeline(&self.step_listed, Work::StepListed)?)
-        } else {
-            None
-        };
-        for from in [here, 1 - here] {
-            all.push(self.bind_from(from, &self.step, None, None)?);
-            if let Some(pipeline) = list_pipeline {
-                listed.push(self.bind_from(from, pipeline, Some(&self.tasks.listed), None)?);
-            }
-        }
-        let (vectors, [_, ny, nz]) = (self.layout.vectors(), self.layout.cells);
+        let since = self.watch.begin();
+        let with_loads = with_loads && self.has_solids();
+        let before = steps - u64::from(with_loads);
+        let [nx, ny, nz] = self.layout.cells;
         let [along, across] = self.recipe().workgroup();
+        let kinds = [self.passes(false)?, self.passes(with_loads)?];
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            let mut parity = 0;
-            for _ in 0..steps {
-                pass.set_pipeline(self.step.raw());
-                pass.set_bind_group(0, &all[parity], &[]);
-                pass.dispatch_workgroups(vectors.div_ceil(along), ny.div_ceil(across), nz);
-                if let Some(pipeline) = list_pipeline {
-                    pass.set_pipeline(pipeline.raw());
-                    pass.set_bind_group(0, &listed[parity], &[]);
+            for number in 0..steps {
+                let passes = &kinds[usize::from(number >= before)];
+                let parity = usize::from(number % 2 == 1);
+                pass.set_pipeline(passes.all.raw());
+                pass.set_bind_group(0, &passes.all_groups[parity], &[]);
+                pass.dispatch_workgroups(nx.div_ceil(along), ny.div_ceil(across), nz);
+                if let Some((listed, groups)) = &passes.listed {
+                    pass.set_pipeline(listed.raw());
+                    pass.set_bind_group(0, &groups[parity], &[]);
                     dispatch(&mut pass, self.list_count);
                 }
-                parity = 1 - parity;
             }
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.watch.wait(&self.gpu, |times| &mut times.fluid)?;
-        let swaps = usize::from(steps % 2 == 1);
-        let last_from = if swaps == 1 { here } else { 1 - here };
+        drop(kinds);
+        self.watch.wait(&self.gpu, since, |times| &mut times.fluid)?;
         if with_loads {
-            self.submit_loads(last_from)?;
+            self.submit_loads()?;
         }
-        self.current = 1 - last_from;
+        if steps % 2 == 1 {
+            self.current = 1 - self.current;
+        }
         Ok(())
     }
 
-    /// Works out the loads of a step that started from copy `from`.
-    fn submit_loads(&self, from: usize) -> Result<(), KernelError> {
-        let Some(solids) = self.solids.as_ref().filter(|solids| solids.solid_count > 0) else {
-            return Ok(());
+    fn has_solids(&self) -> bool {
+        self.solids.as_ref().is_some_and(|solids| solids.solid_count > 0)
+    }
+
+    /// The pipelines of a step with their bindings, from either copy.
+    fn passes(&self, with_loads: bool) -> Result<Passes<'_>, KernelError> {
+        let in_every_cell = self.solids.as_ref().is_some_and(|solids| solids.in_every_cell);
+        let all = if with_loads && in_every_cell {
+            let work = Work::Step { with_solids: true, with_loads: true };
+            self.pipeline(&self.step_with_loads, work)?
+        } else {
+            &self.step
         };
-        let impulses = self.pipeline(&self.impulses, Work::Impulses)?;
+        let copies = [self.current, 1 - self.current];
+        let [first, second] = copies.map(|from| self.bind_from(from, all, None, None));
+        let all_groups = [first?, second?];
+        let listed = if self.list_count > 0 {
+            let listed = self.listed_pipeline(with_loads)?;
+            let task = Some(&self.tasks.listed);
+            let [first, second] = copies.map(|from| self.bind_from(from, listed, task, None));
+            Some((listed, [first?, second?]))
+        } else {
+            None
+        };
+        Ok(Passes { all, all_groups, listed })
+    }
+
+    fn listed_pipeline(&self, with_loads: bool) -> Result<&Pipeline, KernelError> {
+        let work = Work::StepListed { with_loads };
+        let cell = if with_loads { &self.step_listed_with_loads } else { &self.step_listed };
+        self.pipeline(cell, work)
+    }
+
+    /// Adds up the loads of the step that was submitted last.
+    fn submit_loads(&self) -> Result<(), KernelError> {
+        let since = self.watch.begin();
+        let Some(solids) = &self.solids else { return Ok(()) };
         if self.gather.get().is_none() {
-            let _ = self.gather.set(Pipeline::gather(&self.gpu)?);
+            let _ = self.gather.set(Pipeline::gather(&self.gpu, &self.recipe())?);
         }
         let Some(gather) = self.gather.get() else { return Ok(()) };
-        let first = self.bind_from(from, impulses, Some(&self.tasks.shares), None)?;
-        let second = gather.bind(
-            &self.gpu,
-            &[
-                (0, solids.shares.buffer()),
-                (1, solids.pushes.buffer()),
-                (2, solids.starts.buffer()),
-                (3, solids.loads.buffer()),
-            ],
-        )?;
+        let buffers = [
+            &solids.shares,
+            &solids.weights,
+            &solids.starts,
+            &solids.motions,
+            &solids.moments,
+            &solids.loads,
+        ];
+        let resources = (0..).zip(buffers.map(Growing::resource)).collect();
+        let group = gather.bind(&self.gpu, resources)?;
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(impulses.raw());
-            pass.set_bind_group(0, &first, &[]);
-            dispatch(&mut pass, solids.share_count);
             pass.set_pipeline(gather.raw());
-            pass.set_bind_group(0, &second, &[]);
+            pass.set_bind_group(0, &group, &[]);
             let groups = solids.solid_count;
             pass.dispatch_workgroups(groups.min(65_535), groups.div_ceil(65_535), 1);
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
         })?;
-        self.watch.wait(&self.gpu, |times| &mut times.forces)
+        self.watch.wait(&self.gpu, since, |times| &mut times.forces)
     }
 
     pub(super) fn bind(
@@ -158,38 +187,36 @@ impl Kernel {
         task: Option<&wgpu::Buffer>,
         list: Option<&wgpu::Buffer>,
     ) -> Result<wgpu::BindGroup, KernelError> {
-        let mut bindings: Vec<(u32, &wgpu::Buffer)> = Vec::new();
+        let mut bindings: Vec<(u32, wgpu::BindingResource<'_>)> = Vec::new();
         let seen = self.seen.borrow();
+        let fields = |copy: usize| self.copies[copy].iter().map(Field::resource);
         for slot in pipeline.slots() {
             match slot {
-                Slot::Old => bindings.extend((0..).zip(&self.copies[from])),
-                Slot::New => bindings.extend((20..).zip(&self.copies[1 - from])),
-                Slot::Task => bindings.extend(task.map(|task| (50, task))),
-                Slot::List => bindings.push((51, list.unwrap_or_else(|| self.list.buffer()))),
-                Slot::Seen => bindings.push((60, seen.buffer())),
-                Slot::Solids => {
-                    let Some(solids) = &self.solids else { continue };
-                    bindings.push((40, solids.per_cell.buffer()));
-                    if solids.data == SolidData::Moving {
-                        bindings.push((41, solids.records.buffer()));
-                    }
+                Slot::Old => bindings.extend((0..).zip(fields(from))),
+                Slot::New => bindings.extend((20..).zip(fields(1 - from))),
+                Slot::Task => bindings.extend(task.map(|task| (50, task.as_entire_binding()))),
+                Slot::List => {
+                    let list = list.unwrap_or_else(|| self.list.buffer());
+                    bindings.push((51, list.as_entire_binding()));
                 }
-                Slot::Excess => {
+                Slot::Seen => bindings.push((60, seen.resource())),
+                Slot::Solid(table) => {
                     let Some(solids) = &self.solids else { continue };
-                    if solids.data == SolidData::Moving {
-                        bindings.push((42, solids.excess.buffer()));
-                    }
-                }
-                Slot::Shares => {
-                    let Some(solids) = &self.solids else { continue };
-                    bindings.push((60, solids.shares.buffer()));
-                    bindings.push((61, solids.pushes.buffer()));
-                    bindings.push((62, solids.motions.buffer()));
+                    bindings.extend(solids.resource(*table));
                 }
             }
         }
-        pipeline.bind(&self.gpu, &bindings)
+        pipeline.bind(&self.gpu, bindings)
     }
+}
+
+/// The pipelines of one step.
+struct Passes<'a> {
+    /// Of all cells.
+    all: &'a Pipeline,
+    all_groups: [wgpu::BindGroup; 2],
+    /// Of the listed cells.
+    listed: Option<(&'a Pipeline, [wgpu::BindGroup; 2])>,
 }
 
 /// One invocation for each of `count` things, in workgroups of 64.

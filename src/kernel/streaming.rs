@@ -13,97 +13,70 @@
 use psmrt_reference::directions::{C, OPPOSITE, Q};
 use psmrt_reference::domain::{Domain, Face};
 
-use super::layout::Layout;
+use super::layout::{Layout, Store};
 use super::numbers::literal;
 
-/// The populations of a shader that works on one cell at a time: WGSL functions `own` and `wrapped`, and
-/// `keep` if it writes.
+/// The populations of a shader: WGSL functions `own` and `wrapped`, and `keep` if it writes.
 pub(super) fn access(layout: &Layout, writes: bool) -> String {
-    let mut text = bindings(layout, "f32", "f32", writes);
-    text += "\n// The populations at a place.\nfn own(place: u32) -> array<f32, 19> {\n";
+    let mut text = bindings(layout, writes);
+    text += "\n// The populations of a cell.\nfn own(x: u32, y: u32, z: u32) -> array<f32, 19> {\n";
     text += "    var h: array<f32, 19>;\n";
+    text += HERE;
     for a in 0..Q {
-        text += &format!("    h[{a}] = {};\n", old(layout, a, "place"));
+        text += &format!("    h[{a}] = {};\n", old(layout, a, &["x0", "y0", "z0"]));
     }
     text += "    return h;\n}\n\n// f_a(x) = f*_a(x - c_a), all faces taken for periodic.\n";
     text += "fn wrapped(x: u32, y: u32, z: u32) -> array<f32, 19> {\n    var h: array<f32, 19>;\n";
+    text += HERE;
     text += NEIGHBOURS;
     for a in 0..Q {
         let from = std::array::from_fn(|axis| place(axis, C[a][axis]));
-        text += &format!("    h[{a}] = {};\n", old(layout, a, &sum(&from)));
+        text += &format!("    h[{a}] = {};\n", old(layout, a, &from));
     }
     text += "    return h;\n}\n";
     if writes {
-        text += &keep(layout, 1);
+        text += &keep(layout);
     }
     text
 }
 
-/// The populations of a shader that works on a vector of cells at once: WGSL functions `wrapped` and
-/// `keep`.
-pub(super) fn vector_access(layout: &Layout) -> String {
-    let mut text = bindings(layout, "quad", "real", true);
-    text += if layout.pairs { UNPACKED_PAIRS } else { UNPACKED };
-    text += "\n// f_a(x) = f*_a(x - c_a), all faces taken for periodic.\n";
-    text +=
-        "fn wrapped(x: u32, y: u32, z: u32) -> array<real, 19> {\n    var h: array<real, 19>;\n";
-    text += VECTOR_NEIGHBOURS;
-    for a in 0..Q {
-        let from = std::array::from_fn(|axis| place(axis, C[a][axis]));
-        let (binding, start) = layout.direction(a);
-        let start = start / layout.width;
-        text += &format!("    h[{a}] = unpacked(old_{binding}[{start}u + {}]);\n", sum(&from));
-    }
-    if layout.width == 4 {
-        // What comes from beyond an end of the row comes from the neighbour quarter of the row.
-        for (c, condition, turned) in [(1, "x == 0u", "wxyz"), (-1, "x == VECTORS - 1u", "yzwx")] {
-            text += &format!("    if ({condition}) {{\n");
-            for a in (0..Q).filter(|&a| C[a][0] == c) {
-                text += &format!("        h[{a}] = h[{a}].{turned};\n");
-            }
-            text += "    }\n";
+/// The populations' bindings.
+fn bindings(layout: &Layout, writes: bool) -> String {
+    let kind = |access: &str| match layout.store {
+        Store::Buffers => (format!("<storage, {access}>"), "array<f32>".to_owned()),
+        Store::Textures => {
+            let access = if access == "read" { "read" } else { "write" };
+            (String::new(), format!("texture_storage_3d<r32float, {access}>"))
         }
-    }
-    text + "    return h;\n}\n" + &keep(layout, layout.width)
-}
-
-/// What is read as it is.
-const UNPACKED: &str = "fn unpacked(value: real) -> real {
-    return value;
-}
-";
-
-/// Four values that are read as two pairs.
-const UNPACKED_PAIRS: &str = "fn unpacked(pairs: vec2<u64>) -> vec4<f32> {
-    let low = vec2<u32>(u32(pairs.x), u32(pairs.y));
-    let high = vec2<u32>(u32(pairs.x >> 32u), u32(pairs.y >> 32u));
-    return bitcast<vec4<f32>>(vec4<u32>(low.x, high.x, low.y, high.y));
-}
-";
-
-/// The populations' bindings, as arrays of these elements.
-fn bindings(layout: &Layout, read: &str, written: &str, writes: bool) -> String {
+    };
     let mut text = String::new();
     for binding in 0..layout.bindings() {
-        text += &format!(
-            "@group(0) @binding({binding}) var<storage, read> old_{binding}: array<{read}>;\n"
-        );
+        let (space, what) = kind("read");
+        text += &format!("@group(0) @binding({binding}) var{space} old_{binding}: {what};\n");
         if writes {
-            text += &format!(
-                "@group(0) @binding({}) var<storage, read_write> new_{binding}: array<{written}>;\n",
-                20 + binding
-            );
+            let (space, what) = kind("read_write");
+            let number = 20 + binding;
+            text += &format!("@group(0) @binding({number}) var{space} new_{binding}: {what};\n");
         }
     }
     text
 }
 
-/// WGSL function `keep`: writes the populations of a place, or of the vector of that number.
-fn keep(layout: &Layout, width: u32) -> String {
-    let mut text = String::from("\nfn keep(place: u32, post: array<real, 19>) {\n");
+/// WGSL function `keep`: writes the populations of a cell.
+fn keep(layout: &Layout) -> String {
+    let mut text =
+        String::from("\nfn keep(x: u32, y: u32, z: u32, post: array<f32, 19>) {\n") + HERE;
     for a in 0..Q {
         let (binding, start) = layout.direction(a);
-        text += &format!("    new_{binding}[{}u + place] = post[{a}];\n", start / width);
+        text += &match layout.store {
+            Store::Buffers => {
+                format!("    new_{binding}[{start}u + (x0 + y0 + z0)] = post[{a}];\n")
+            }
+            Store::Textures => format!(
+                "    textureStore(new_{binding}, vec3<u32>(x0, y0, {start}u + z0), \
+                 vec4<f32>(post[{a}], 0.0, 0.0, 0.0));\n"
+            ),
+        };
     }
     text + "}\n"
 }
@@ -134,10 +107,10 @@ pub(super) fn faces(domain: &Domain, layout: &Layout) -> String {
     text += "fn entering(x: u32, y: u32, z: u32) -> array<f32, 19> {\n";
     text += "    var h = wrapped(x, y, z);\n";
     if !rules.is_empty() {
+        text += HERE;
         text += NEIGHBOURS;
-        text += "    let here_place = x0 + y0 + z0;\n";
         if needs_own {
-            text += "    let here = own(here_place);\n    let drho = sum(here);\n";
+            text += "    let here = own(x, y, z);\n    let drho = sum(here);\n";
             text += "    let rho = 1.0 + drho;\n    let u = momentum(here) / rho;\n";
             text += "    let u2 = dot(u, u);\n";
         }
@@ -146,28 +119,20 @@ pub(super) fn faces(domain: &Domain, layout: &Layout) -> String {
     text + "    return h;\n}\n"
 }
 
-/// Parts of the places of a cell and its neighbours, wrapped round the box.
-const NEIGHBOURS: &str = "    let x0 = along(x);
-    let y0 = ROW_PLACES * y;
-    let z0 = ROW_PLACES * NY * z;
-    let xm = along(select(x - 1u, NX - 1u, x == 0u));
-    let xp = along(select(x + 1u, 0u, x == NX - 1u));
-    let ym = ROW_PLACES * select(y - 1u, NY - 1u, y == 0u);
-    let yp = ROW_PLACES * select(y + 1u, 0u, y == NY - 1u);
-    let zm = ROW_PLACES * NY * select(z - 1u, NZ - 1u, z == 0u);
-    let zp = ROW_PLACES * NY * select(z + 1u, 0u, z == NZ - 1u);
+/// Parts of the place of a cell: in a buffer they add up to its number, in a texture they are its
+/// coordinates.
+const HERE: &str = "    let x0 = x;
+    let y0 = STEP_Y * y;
+    let z0 = STEP_Z * z;
 ";
 
-/// The same for the numbers of vectors; x is that in the row.
-const VECTOR_NEIGHBOURS: &str = "    let x0 = x;
-    let y0 = VECTORS * y;
-    let z0 = VECTORS * NY * z;
-    let xm = select(x - 1u, VECTORS - 1u, x == 0u);
-    let xp = select(x + 1u, 0u, x == VECTORS - 1u);
-    let ym = VECTORS * select(y - 1u, NY - 1u, y == 0u);
-    let yp = VECTORS * select(y + 1u, 0u, y == NY - 1u);
-    let zm = VECTORS * NY * select(z - 1u, NZ - 1u, z == 0u);
-    let zp = VECTORS * NY * select(z + 1u, 0u, z == NZ - 1u);
+/// The same of its neighbours, wrapped round the box.
+const NEIGHBOURS: &str = "    let xm = select(x - 1u, NX - 1u, x == 0u);
+    let xp = select(x + 1u, 0u, x == NX - 1u);
+    let ym = STEP_Y * select(y - 1u, NY - 1u, y == 0u);
+    let yp = STEP_Y * select(y + 1u, 0u, y == NY - 1u);
+    let zm = STEP_Z * select(z - 1u, NZ - 1u, z == 0u);
+    let zp = STEP_Z * select(z + 1u, 0u, z == NZ - 1u);
 ";
 
 /// Whether a cell lies at the low and the high face of each axis.
@@ -184,14 +149,15 @@ fn place(axis: usize, c: i32) -> &'static str {
     }
 }
 
-fn sum(parts: &[&str; 3]) -> String {
-    format!("({} + {} + {})", parts[0], parts[1], parts[2])
-}
-
-/// Population `a` of a cell.
-fn old(layout: &Layout, a: usize, cell: &str) -> String {
+/// Population `a` of the cell whose place has these parts.
+fn old(layout: &Layout, a: usize, [x, y, z]: &[&str; 3]) -> String {
     let (binding, start) = layout.direction(a);
-    format!("old_{binding}[{start}u + {cell}]")
+    match layout.store {
+        Store::Buffers => format!("old_{binding}[{start}u + ({x} + {y} + {z})]"),
+        Store::Textures => {
+            format!("textureLoad(old_{binding}, vec3<u32>({x}, {y}, {start}u + {z})).x")
+        }
+    }
 }
 
 /// The sets of axes along which direction `a` can cross a face, the larger first.
@@ -241,7 +207,7 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
     if is_periodic {
         return None;
     }
-    let back = old(layout, OPPOSITE[a], "here_place");
+    let back = old(layout, OPPOSITE[a], &["x0", "y0", "z0"]);
     Some(match (wall, pressure) {
         (Some(u), _) => {
             // f_a = f*_-a + 6 w_a ρ (c_a·u_w)
@@ -265,7 +231,6 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
             Rule { expression, needs_own: true }
         }
         (None, None) => {
-            let from = sum(&from);
             let number = C.iter().position(|&known| known == direction).unwrap_or(a);
             Rule { expression: old(layout, number, &from), needs_own: false }
         }

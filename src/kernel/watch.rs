@@ -5,18 +5,52 @@ use std::time::{Duration, Instant};
 
 use super::device::Gpu;
 use super::error::KernelError;
+use crate::machine::processor_time;
+
+/// Time that something has taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Spent {
+    /// On the clock.
+    pub clock: Duration,
+    /// Of all threads of this program, with those of a software adapter; zero where it is not known.
+    pub processor: Duration,
+}
+
+/// When something began.
+#[derive(Clone, Copy, Debug)]
+pub struct Beginning {
+    clock: Instant,
+    processor: Option<Duration>,
+}
+
+impl Beginning {
+    /// Now.
+    pub fn now() -> Self {
+        Beginning { clock: Instant::now(), processor: processor_time() }
+    }
+}
+
+impl Spent {
+    /// Adds what has passed since.
+    pub fn add(&mut self, since: Beginning) {
+        self.clock += since.clock.elapsed();
+        if let (Some(before), Some(now)) = (since.processor, processor_time()) {
+            self.processor += now.saturating_sub(before);
+        }
+    }
+}
 
 /// Where the time has gone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct KernelTimes {
     /// Streaming and collision.
-    pub fluid: Duration,
+    pub fluid: Spent,
     /// Listing what the solids cover.
-    pub coverage: Duration,
+    pub coverage: Spent,
     /// Loads on the solids.
-    pub forces: Duration,
+    pub forces: Spent,
     /// Tables to the device and loads back.
-    pub transfers: Duration,
+    pub transfers: Spent,
 }
 
 /// Keeps the times, if it is on.
@@ -27,25 +61,34 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Adds the time since `start` to one of the parts.
-    pub(super) fn add(&self, start: Instant, part: impl Fn(&mut KernelTimes) -> &mut Duration) {
-        if self.is_on {
+    /// Now, if times are kept.
+    pub(super) fn begin(&self) -> Option<Beginning> {
+        self.is_on.then(Beginning::now)
+    }
+
+    /// Adds the time since then to one of the parts.
+    pub(super) fn add(
+        &self,
+        since: Option<Beginning>,
+        part: impl Fn(&mut KernelTimes) -> &mut Spent,
+    ) {
+        if let Some(since) = since {
             let mut times = self.times.get();
-            *part(&mut times) += start.elapsed();
+            part(&mut times).add(since);
             self.times.set(times);
         }
     }
 
-    /// Waits for what was submitted last and adds the time that it took to one of the parts.
+    /// Waits for what was submitted last and adds the time since then to one of the parts.
     pub(super) fn wait(
         &self,
         gpu: &Gpu,
-        part: impl Fn(&mut KernelTimes) -> &mut Duration,
+        since: Option<Beginning>,
+        part: impl Fn(&mut KernelTimes) -> &mut Spent,
     ) -> Result<(), KernelError> {
-        if self.is_on {
-            let start = Instant::now();
+        if since.is_some() {
             gpu.wait()?;
-            self.add(start, part);
+            self.add(since, part);
         }
         Ok(())
     }

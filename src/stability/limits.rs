@@ -113,7 +113,7 @@ impl Measured {
             Measured::Bed(Weighting::NobleTorczynski) => (BED, "NT"),
             Measured::Bed(Weighting::SolidFraction) => (BED, "eps"),
         };
-        let all = frontiers(&Table::parse(text).ok()?).ok()?;
+        let all = frontiers(&Table::parse("golden/stability", text).ok()?).ok()?;
         let mut own: Vec<&Frontier> = all
             .iter()
             .filter(|one| one.line[0] == "reference" && one.line[1] == model.word())

@@ -1,27 +1,27 @@
-// Adds up the shares of each solid: a workgroup to a solid, each invocation every LANES-th share, then
-// a tree. The order of the sums depends on nothing but the list, so that two runs give the same bits.
+// Force and torque on each solid during the last step.
+//
+// Both solid operators change the momentum of a cell by B_s (ρ u_s - j), with the momentum j before the
+// collision: that is what the solid loses. A workgroup adds up the shares of one solid (the parts of
+// cells that it covers), each invocation every LANES-th, then a tree. The order of the sums depends on
+// nothing but the list, so that two runs give the same bits.
 
-struct Share {
-    place: u32,
-    solid: u32,
-    weight: f32,
-    arm_x: f32,
-    arm_y: f32,
-    arm_z: f32,
-}
-
-@group(0) @binding(0) var<storage, read> shares: array<Share>;
-@group(0) @binding(1) var<storage, read> pushes: array<vec4<f32>>;
+// Of each share the number of its cell's record, and the bits of the arm from the solid's centre to the cell's
+@group(0) @binding(0) var<storage, read> shares: array<vec4<u32>>;
+// B_s of each share
+@group(0) @binding(1) var<storage, read> weights: array<f32>;
 // First share of each solid, and the number of all shares
 @group(0) @binding(2) var<storage, read> starts: array<u32>;
+// Velocity U and spin ω of each solid
+@group(0) @binding(3) var<storage, read> motions: array<vec4<f32>>;
+// j and ρ - 1 of each record
+@group(0) @binding(4) var<storage, read> moments: array<vec4<f32>>;
 // Force and torque of each solid
-@group(0) @binding(3) var<storage, read_write> loads: array<vec4<f32>>;
+@group(0) @binding(5) var<storage, read_write> loads: array<vec4<f32>>;
 
-const LANES = 64u;
 var<workgroup> force: array<vec3<f32>, LANES>;
 var<workgroup> torque: array<vec3<f32>, LANES>;
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(LANES)
 fn gather(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) lane: u32,
@@ -31,10 +31,16 @@ fn gather(
     var f = vec3<f32>(0.0);
     var t = vec3<f32>(0.0);
     if (is_solid) {
+        let velocity = motions[2u * solid].xyz;
+        let spin = motions[2u * solid + 1u].xyz;
         for (var number = starts[solid] + lane; number < starts[solid + 1u]; number += LANES) {
-            let push = pushes[number].xyz;
-            let arm = vec3<f32>(shares[number].arm_x, shares[number].arm_y, shares[number].arm_z);
-            // F = Σ F_i,  T = Σ r_i × F_i
+            let share = shares[number];
+            let arm = bitcast<vec3<f32>>(share.yzw);
+            let moment = moments[share.x];
+            // u_s = U + ω × r
+            let u = velocity + cross(spin, arm);
+            // F = Σ B_s (j - ρ u_s),  T = Σ r × F
+            let push = weights[number] * (moment.xyz - (1.0 + moment.w) * u);
             f += push;
             t += cross(arm, push);
         }

@@ -4,16 +4,15 @@
 // h are the populations less their weights, h_a = f_a - w_a, so that f32 keeps the digits of what
 // moves: ρ = 1 + Σ h_a, and all other moments of the weights but e (-11) and eps (3) are zero.
 //
-// Opposite directions go together: s their sum, d their difference. A `real` is the value of one cell, or
-// of four cells that are worked on at once.
+// Opposite directions go together: s their sum, d their difference.
 
 // f* = f + M⁻¹ g,  g = (1 - B) [Ŝ (m_eq - m) + (I - Ŝ/2) F] + Σ_s B_s Λ_s
 fn collided(
-    h: array<real, 19>,
+    h: array<f32, 19>,
 //#if SOLIDS
     solid: SolidPart,
 //#end
-) -> array<real, 19> {
+) -> array<f32, 19> {
     let s1 = h[1] + h[2];
     let d1 = h[1] - h[2];
     let s3 = h[3] + h[4];
@@ -139,9 +138,9 @@ fn collided(
     g_xy += (1.0 - 0.5 * S_NU) * (u_x * G_Y + u_y * G_X);
     g_yz += (1.0 - 0.5 * S_NU) * (u_y * G_Z + u_z * G_Y);
     g_xz += (1.0 - 0.5 * S_NU) * (u_x * G_Z + u_z * G_X);
-    var gj_x = real(G_X);
-    var gj_y = real(G_Y);
-    var gj_z = real(G_Z);
+    var gj_x = f32(G_X);
+    var gj_y = f32(G_Y);
+    var gj_z = f32(G_Z);
 //#end
 
 //#if SOLIDS
@@ -168,9 +167,9 @@ fn collided(
     let bare_kinetic = kinetic;
     let bare_xx = n_xx;
     let bare_ww = n_ww;
-    var gj_x = real(0.0);
-    var gj_y = real(0.0);
-    var gj_z = real(0.0);
+    var gj_x = f32(0.0);
+    var gj_y = f32(0.0);
+    var gj_z = f32(0.0);
 //#end
     // Even moments of both operators: B [m_eq(u_p) - m_eq(u)]
 //#if MOVING
@@ -283,7 +282,7 @@ fn collided(
     let o12 = of_z - os_x;
     let o15 = of_y + os_z;
     let o16 = os_z - of_y;
-    var post: array<real, 19>;
+    var post: array<f32, 19>;
     post[0] = h[0] + at_rest;
     post[1] = h[1] + (e_x + f_x);
     post[2] = h[2] + (e_x - f_x);

@@ -8,7 +8,7 @@ fn observe(@builtin(global_invocation_id) id: vec3<u32>) {
     if (number >= task.count) {
         return;
     }
-    let h = observed(listed(number));
+    let h = observed(coordinates(listed(number)));
     for (var a = 0u; a < 19u; a++) {
         seen[19u * number + a] = h[a];
     }

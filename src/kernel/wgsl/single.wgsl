@@ -3,7 +3,7 @@
 
 // Both populations of a pair after the collision, cu = c·u and cg = c·G of the first:
 // f* = f + (f_eq - f)/τ + (1 - 1/(2τ)) F
-fn relaxed(plus: real, minus: real, w: f32, cu: real, cg: f32, state: State) -> Pair {
+fn relaxed(plus: f32, minus: f32, w: f32, cu: f32, cg: f32, state: State) -> Pair {
     // f_eq = w ρ [1 + 3 c·u + 9/2 (c·u)² - 3/2 u²], its even part less w, and its odd part
     let even = w * (state.drho + state.rho * (4.5 * cu * cu) - state.speed);
     let odd = 3.0 * w * state.rho * cu;
@@ -21,20 +21,20 @@ fn relaxed(plus: real, minus: real, w: f32, cu: real, cg: f32, state: State) -> 
 
 struct State {
     // ρ - 1 and ρ
-    drho: real,
-    rho: real,
+    drho: f32,
+    rho: f32,
     // 3/2 ρ u²
-    speed: real,
+    speed: f32,
     // 3 u·G
-    power: real,
+    power: f32,
 }
 
 struct Pair {
-    plus: real,
-    minus: real,
+    plus: f32,
+    minus: f32,
 }
 
-fn collided(h: array<real, 19>) -> array<real, 19> {
+fn collided(h: array<f32, 19>) -> array<f32, 19> {
     let drho = h[0] + ((h[1] + h[2]) + (h[3] + h[4]) + (h[5] + h[6]))
         + ((h[7] + h[10]) + (h[8] + h[9]) + (h[11] + h[14]))
         + ((h[12] + h[13]) + (h[15] + h[18]) + (h[16] + h[17]));
@@ -66,7 +66,7 @@ fn collided(h: array<real, 19>) -> array<real, 19> {
     let p12 = relaxed(h[12], h[13], 1.0 / 36.0, u_z - u_x, G_Z - G_X, state);
     let p15 = relaxed(h[15], h[18], 1.0 / 36.0, u_y + u_z, G_Y + G_Z, state);
     let p16 = relaxed(h[16], h[17], 1.0 / 36.0, u_z - u_y, G_Z - G_Y, state);
-    var post: array<real, 19>;
+    var post: array<f32, 19>;
     var change = S_NU * (1.0 / 3.0 * (drho - state.speed) - h[0]);
 //#if FORCE
     change -= (1.0 - 0.5 * S_NU) * (1.0 / 3.0) * power;

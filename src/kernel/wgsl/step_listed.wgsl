@@ -6,14 +6,18 @@ fn step_listed(@builtin(global_invocation_id) id: vec3<u32>) {
     if (number >= task.count) {
         return;
     }
-    let here = listed(number);
-    if (!is_cell(here)) {
-        return;
-    }
-    let h = observed(here);
-//#if SOLIDS
-    keep(here, collided(h, solid_part(here)));
+    let at = coordinates(listed(number));
+    let h = observed(at);
+//#if LOADS
+    keep_moments(at.x, at.y, at.z, h);
+//#end
+//#if MANY
+    keep(at.x, at.y, at.z, collided(h, solid_part_of_listed(number, at.x, at.y, at.z)));
 //#else
-    keep(here, collided(h));
+//#if SOLIDS
+    keep(at.x, at.y, at.z, collided(h, solid_part(at.x, at.y, at.z)));
+//#else
+    keep(at.x, at.y, at.z, collided(h));
+//#end
 //#end
 }

@@ -11,7 +11,7 @@ struct Part {
     // Largest |j|²/ρ² and |j + G/2|²/ρ²
     bare_speed2: f32,
     speed2: f32,
-    // First broken cell by its place, or 0xffffffff
+    // First broken cell, or 0xffffffff
     broken: u32,
     spare: u32,
 }
@@ -30,10 +30,8 @@ fn summary(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var part = Part(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0xffffffffu, 0u);
     for (var cell = id.x; cell < task.count; cell += STRANDS) {
-        if (!is_cell(cell)) {
-            continue;
-        }
-        let h = observed(cell);
+        let at = coordinates(cell);
+        let h = observed(at);
         let drho = sum(h);
         let j = momentum(h);
         let rho = 1.0 + drho;
@@ -50,7 +48,7 @@ fn summary(@builtin(global_invocation_id) id: vec3<u32>) {
 //#end
 //#if SOLIDS
         // j* = j + (1 - B) G + Σ B_s (ρ u_s - j)
-        let solid = solid_part(cell);
+        let solid = solid_part(at.x, at.y, at.z);
         gain = (1.0 - solid.weight) * gain - solid.weight * j;
 //#if MOVING
         gain += rho * vec3<f32>(solid.velocity_x, solid.velocity_y, solid.velocity_z);

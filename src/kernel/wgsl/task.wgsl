@@ -3,7 +3,7 @@
 struct Task {
     // How many.
     count: u32,
-    // 0: all places in their order, 1: those of the list.
+    // 0: all cells in their order, 1: those of the list.
     is_listed: u32,
     // 0: the populations are kept as they are before a collision (at the start of a run), 1: as they
     // are after it.
@@ -22,11 +22,15 @@ fn listed(number: u32) -> u32 {
     return number;
 }
 
-// The populations at a place before their next collision.
-fn observed(place: u32) -> array<f32, 19> {
+// x, y, z of a cell.
+fn coordinates(cell: u32) -> vec3<u32> {
+    return vec3<u32>(cell % NX, cell / NX % NY, cell / (NX * NY));
+}
+
+// The populations of a cell before their next collision.
+fn observed(at: vec3<u32>) -> array<f32, 19> {
     if (task.is_collided == 1u) {
-        let x = coordinates(place);
-        return entering(x.x, x.y, x.z);
+        return entering(at.x, at.y, at.z);
     }
-    return own(place);
+    return own(at.x, at.y, at.z);
 }

@@ -1,0 +1,294 @@
+//! What the tests of the kernel against the oracle share, and `examples/kernel_parity.rs` with them.
+
+#![allow(dead_code, reason = "each file that compares the two uses a part of this")]
+
+use std::sync::Arc;
+
+use psmrt::kernel::{Gpu, Kernel};
+use psmrt_reference::collision::Collision;
+use psmrt_reference::directions::Q;
+use psmrt_reference::domain::{Domain, Face, Faces};
+use psmrt_reference::lattice::{Populations, Vec3, W};
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
+use psmrt_reference::rates::Rates;
+use psmrt_reference::setup::{Setup, SolidPhase};
+use psmrt_reference::solids::{Shape, Solid};
+use psmrt_reference::solver::Solver;
+
+use crate::common::collisions::{dhumieres, magic, srt};
+use crate::common::random::Random;
+use crate::common::{Budget, trials};
+
+pub const CELLS: [usize; 3] = [6, 5, 4];
+
+/// What single precision holds of a population less its weight.
+pub fn rounded(f: &Populations) -> Populations {
+    #[expect(clippy::cast_possible_truncation, reason = "the point is to round")]
+    std::array::from_fn(|a| f64::from((f[a] - W[a]) as f32) + W[a])
+}
+
+pub fn random_state(random: &mut Random, count: usize) -> Vec<Populations> {
+    (0..count).map(|_| rounded(&random.populations())).collect()
+}
+
+/// Sum of the absolute values of the populations less their weights.
+pub fn gauge(f: &Populations) -> f64 {
+    (0..Q).map(|a| (f[a] - W[a]).abs()).sum()
+}
+
+/// Largest error after one step over epsilon times the largest gauge that met in it.
+pub fn error_of_one_step(budget: &mut Budget, setup: &Setup, start: &[Populations]) -> f64 {
+    let mut oracle = Solver::from_populations(setup.clone(), start.to_vec()).unwrap();
+    budget.spend(start.len() as u64);
+    oracle.step().unwrap();
+    let mut kernel = Kernel::new(&trials::gpu().unwrap(), setup.clone(), false).unwrap();
+    kernel.set_populations(start).unwrap();
+    budget.advance(&mut kernel, 1);
+    let all: Vec<usize> = (0..start.len()).collect();
+    let found = kernel.populations(&all).unwrap();
+    let mut worst = 0.0_f64;
+    for (cell, (found, expected)) in found.iter().zip(oracle.populations()).enumerate() {
+        let place = setup.domain.coordinates(cell).map(|x| i64::try_from(x).unwrap());
+        // A population comes from this cell or one next to it.
+        let mut largest = gauge(expected);
+        for offset in 0..27_i64 {
+            let near = [offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1];
+            let near = std::array::from_fn(|axis| place[axis] + near[axis]);
+            if let Some(near) = setup.domain.locate(near) {
+                largest = largest.max(gauge(&start[setup.domain.index(near)]));
+            }
+        }
+        for a in 0..Q {
+            let error = (found[a] - expected[a]).abs() / (f64::from(f32::EPSILON) * largest);
+            worst = worst.max(error);
+        }
+    }
+    worst
+}
+
+pub fn collisions() -> Vec<(&'static str, Collision)> {
+    let rates = Rates { e: 0.3, eps: 1.9, q: 0.7, nu: 1.0 / 0.9, pi: 1.1, m: 0.2 };
+    vec![
+        ("SRT", srt(0.8)),
+        ("SRT near 1/2", srt(0.505)),
+        ("SRT as a set of rates", Collision::Mrt { rates: Rates::srt(0.8).unwrap() }),
+        ("d'Humieres", dhumieres(0.7)),
+        ("d'Humieres near 1/2", dhumieres(0.505)),
+        ("magic", magic(1.5, 0.1875)),
+        ("all rates apart", Collision::Mrt { rates }),
+    ]
+}
+
+pub const G: Vec3 = Vec3::new(1e-3, -2e-3, 5e-4);
+
+pub const WEIGHTINGS: [Weighting; 2] = [Weighting::SolidFraction, Weighting::NobleTorczynski];
+pub const OPERATORS: [SolidOperator; 2] =
+    [SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition];
+
+/// Solids with given fractions of all cells, of which each has up to three; some are full, some bare.
+pub fn given_fractions(random: &mut Random, moving: bool) -> Vec<Solid> {
+    (0..3)
+        .map(|_| {
+            let mut fractions = Vec::new();
+            for cell in 0..CELLS.iter().product() {
+                match random.between(0.0, 3.0) {
+                    x if x < 0.3 => fractions.push((cell, 1.0)),
+                    x if x < 2.0 => fractions.push((cell, random.between(0.0, 1.0))),
+                    _ => {}
+                }
+            }
+            let velocity = if moving { random.vector(0.05) } else { Vec3::zeros() };
+            let spin = if moving { random.vector(0.01) } else { Vec3::zeros() };
+            Solid { velocity, spin, ..Solid::fixed_cells(fractions) }
+        })
+        .collect()
+}
+
+/// Boxes in which every kind of face meets every other at an edge.
+pub fn mixed_faces() -> Vec<Faces> {
+    let lid = Face::Wall { velocity: Vec3::new(0.03, -0.02, 0.0) };
+    let side = Face::Wall { velocity: Vec3::new(0.0, 0.02, -0.01) };
+    let inlet = Face::VelocityInlet { velocity: Vec3::new(0.04, 0.01, -0.01) };
+    let [low, high] = [0.98, 1.01].map(|density| Face::Pressure { density });
+    let (slip, out, wall) = (Face::FreeSlip, Face::FreeOutflow, Face::wall());
+    let periodic = [Face::Periodic; 2];
+    vec![
+        Faces { x: [wall; 2], y: [wall; 2], z: [wall, lid] },
+        Faces { x: [inlet, out], y: periodic, z: [wall, lid] },
+        Faces { x: [inlet, high], y: [slip; 2], z: [slip, wall] },
+        Faces { x: [inlet, high], y: [slip, out], z: [low, lid] },
+        Faces { x: [side, slip], y: [low, high], z: periodic },
+        Faces { x: [low, out], y: [high, slip], z: [out, low] },
+        Faces { x: [slip, out], y: [out, slip], z: [inlet, out] },
+        Faces { x: periodic, y: [slip, low], z: [high, slip] },
+    ]
+}
+
+/// A scene computed by both.
+pub struct Both {
+    pub oracle: Solver,
+    pub kernel: Kernel,
+    largest_gauge: f64,
+}
+
+/// Errors of populations, forces and torques over their bounds.
+#[derive(Debug)]
+pub struct Errors {
+    pub populations: f64,
+    pub forces: f64,
+    pub torques: f64,
+}
+
+impl Errors {
+    pub fn worst(&self) -> f64 {
+        self.populations.max(self.forces).max(self.torques)
+    }
+}
+
+impl Both {
+    pub fn new(setup: &Setup, start: &[Populations]) -> Self {
+        Self::on(&trials::gpu().unwrap(), setup, start)
+    }
+
+    pub fn on(gpu: &Arc<Gpu>, setup: &Setup, start: &[Populations]) -> Self {
+        let oracle = Solver::from_populations(setup.clone(), start.to_vec()).unwrap();
+        let mut kernel = Kernel::new(gpu, setup.clone(), false).unwrap();
+        kernel.set_populations(start).unwrap();
+        let largest_gauge = start.iter().map(gauge).fold(0.0, f64::max);
+        Both { oracle, kernel, largest_gauge }
+    }
+
+    /// Makes `steps` steps, moving the solids of the kernel as the oracle moves its own.
+    pub fn run(&mut self, budget: &mut Budget, steps: u64) {
+        let solids =
+            |solver: &Solver| solver.setup().solid_phase.as_ref().map(|p| p.solids.clone());
+        let moves = solids(&self.oracle).is_some_and(|solids| solids.iter().any(Solid::moves));
+        let batch = if moves { 1 } else { 10.min(steps) };
+        for _ in 0..steps / batch {
+            self.oracle.run(batch).unwrap();
+            budget.advance(&mut self.kernel, batch);
+            if moves {
+                self.kernel.place_solids(solids(&self.oracle).unwrap()).unwrap();
+            }
+            let now = self.oracle.populations().iter().map(gauge).fold(0.0, f64::max);
+            self.largest_gauge = self.largest_gauge.max(now);
+        }
+    }
+
+    pub fn errors(&self) -> Errors {
+        let steps = self.oracle.steps() as f64;
+        let bound = 2.0 * steps.sqrt() * f64::from(f32::EPSILON) * self.largest_gauge;
+        let all: Vec<usize> = (0..self.oracle.populations().len()).collect();
+        let found = self.kernel.populations(&all).unwrap();
+        let pairs = found.iter().flatten().zip(self.oracle.populations().iter().flatten());
+        let populations = pairs.map(|(f, o)| (f - o).abs()).fold(0.0, f64::max) / bound;
+        let (mut forces, mut torques) = (0.0_f64, 0.0_f64);
+        let phase = self.oracle.setup().solid_phase.as_ref();
+        let solids = phase.map_or(&[][..], |phase| &phase.solids);
+        let loads = self.kernel.loads().unwrap();
+        for ((load, expected), solid) in loads.iter().zip(self.oracle.loads()).zip(solids) {
+            let Shape::Sphere { radius } = solid.shape else { unreachable!("only spheres here") };
+            // Cells that it touches, and how far they are at most.
+            let (cells, reach) = (4.2 * (radius + 0.8).powi(3), radius + 0.8);
+            let bound = (10.0 * cells).sqrt() * bound;
+            forces = forces.max((load.force - expected.force).norm() / bound);
+            torques = torques.max((load.torque - expected.torque).norm() / (reach * bound));
+        }
+        Errors { populations, forces, torques }
+    }
+}
+
+/// A slow flow of several waves: populations in equilibrium, a hundredth away from it.
+pub fn waves(random: &mut Random, domain: &Domain) -> Vec<Populations> {
+    let size = Vec3::from(domain.cells().map(|n| n as f64));
+    let phase = random.vector(3.0);
+    (0..domain.cell_count())
+        .map(|cell| {
+            let x = domain.centre(domain.coordinates(cell)).component_div(&size);
+            let angle = |i: usize| std::f64::consts::TAU * x[i] + phase[i];
+            let u = 0.03 * Vec3::new(angle(1).sin(), angle(2).cos(), angle(0).sin());
+            let f = psmrt_reference::equilibrium::equilibrium(1.0 + 0.01 * angle(0).cos(), &u);
+            // What single precision holds of it, so that both start from the same.
+            std::array::from_fn(|a: usize| {
+                let off = f[a] * (1.0 + random.between(-0.01, 0.01)) - W[a];
+                #[expect(clippy::cast_possible_truncation, reason = "the point is to round")]
+                let rounded = f64::from(off as f32);
+                rounded + W[a]
+            })
+        })
+        .collect()
+}
+
+pub fn sphere(centre: [f64; 3], radius: f64, velocity: Vec3, spin: Vec3) -> Solid {
+    Solid { velocity, spin, ..Solid::fixed_sphere(Vec3::from(centre), radius) }
+}
+
+/// Scenes that between them hold every model and face.
+pub fn scenes() -> Vec<(&'static str, Setup)> {
+    let periodic = |cells| Domain::new(cells, Faces::PERIODIC).unwrap();
+    let still = Vec3::zeros();
+    let g = Vec3::new(1e-5, -2e-5, 5e-6);
+    let lid = Face::Wall { velocity: Vec3::new(0.03, -0.02, 0.0) };
+    let inlet = Face::VelocityInlet { velocity: Vec3::new(0.02, 0.0, 0.0) };
+    let outlet = Face::Pressure { density: 1.0 };
+    let walls = [Face::wall(), lid];
+    let cavity = Faces { x: [Face::wall(); 2], y: [Face::FreeSlip, Face::wall()], z: walls };
+    let channel = Faces { x: [inlet, outlet], y: [Face::FreeSlip; 2], z: [Face::wall(); 2] };
+    let open = Faces { x: [inlet, Face::FreeOutflow], y: [Face::Periodic; 2], z: walls };
+    let held = vec![sphere([5.2, 4.9, 5.3], 2.6, still, still)];
+    let bed: Vec<Solid> = (0..8_u32)
+        .map(|i| {
+            let at = [i % 2, i / 2 % 2, i / 4].map(|k| 0.3 + 6.0 * f64::from(k));
+            sphere(at, 2.9, still, still)
+        })
+        .collect();
+    // Two that overlap in some cells, one that spins, one that leaves through a side.
+    let moving = vec![
+        sphere([3.3, 4.2, 5.0], 2.2, Vec3::new(0.02, 0.0, -0.01), Vec3::new(0.0, 0.01, 0.0)),
+        sphere([7.4, 4.6, 5.1], 2.0, Vec3::new(-0.01, 0.01, 0.0), still),
+        sphere([9.8, 9.0, 1.1], 1.7, still, Vec3::new(0.01, -0.02, 0.01)),
+    ];
+    let phase = |solids, weighting, operator| SolidPhase {
+        solids,
+        weighting,
+        operator,
+        ..SolidPhase::default()
+    };
+    let (nt, fraction) = (Weighting::NobleTorczynski, Weighting::SolidFraction);
+    let (bounce, superposed) =
+        (SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition);
+    vec![
+        ("SRT, periodic", Setup::fluid(periodic([12, 9, 10]), srt(0.6))),
+        ("MRT, a row of 11 cells", Setup::fluid(periodic([11, 9, 10]), dhumieres(0.55))),
+        ("MRT, force, cavity", {
+            Setup::fluid(Domain::new([12, 9, 10], cavity).unwrap(), dhumieres(0.7))
+                .with_body_force(g)
+        }),
+        ("SRT, inlet and pressure", {
+            Setup::fluid(Domain::new([13, 8, 9], channel).unwrap(), srt(0.9))
+        }),
+        ("magic, a sphere, inlet and outflow", {
+            let setup = Setup::fluid(Domain::new([12, 10, 11], open).unwrap(), magic(0.8, 0.25));
+            setup.with_solids(phase(held.clone(), nt, bounce))
+        }),
+        ("MRT, force, few solid cells", {
+            let setup = Setup::fluid(periodic([16, 14, 12]), dhumieres(0.6)).with_body_force(g);
+            setup.with_solids(phase(held, fraction, superposed))
+        }),
+        ("MRT, force, a bed", {
+            let setup = Setup::fluid(periodic([12, 12, 12]), dhumieres(0.8)).with_body_force(g);
+            setup.with_solids(phase(bed.clone(), nt, bounce))
+        }),
+        ("SRT, a bed, superposition", {
+            Setup::fluid(periodic([12, 12, 12]), srt(0.55)).with_solids(phase(bed, nt, superposed))
+        }),
+        ("MRT, moving solids", {
+            let setup = Setup::fluid(periodic([12, 12, 12]), dhumieres(0.7)).with_body_force(g);
+            setup.with_solids(phase(moving.clone(), nt, bounce))
+        }),
+        ("MRT, moving solids between walls, superposition", {
+            let setup = Setup::fluid(Domain::new([13, 11, 12], cavity).unwrap(), dhumieres(0.7));
+            setup.with_solids(phase(moving, fraction, superposed))
+        }),
+    ]
+}
