@@ -43,7 +43,7 @@ fn number(name: &'static str, value: f64, unit: &'static str, note: impl Into<St
 }
 
 /// The largest velocity that the scene names, m/s, and where it comes from.
-fn si_velocity(scene: &Scene) -> Option<(f64, &'static str)> {
+pub(crate) fn si_velocity(scene: &Scene) -> Option<(f64, &'static str)> {
     if let Some(si_velocity) = scene.si_reference_velocity {
         return Some((si_velocity, "time.reference_velocity"));
     }

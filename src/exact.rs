@@ -80,13 +80,21 @@ impl PlanePoiseuille {
 ///
 /// Source: Ginzburg & d'Humières, Phys. Rev. E 68, 066614 (2003).
 fn wall_slip(collision: &Collision, body_force: f64) -> f64 {
+    // u_slip = G (16 L - 3)/(24 ν)
+    let nu = psmrt_reference::lattice::viscosity(collision.tau());
+    body_force * (16.0 * magic_parameter(collision) - 3.0) / (24.0 * nu)
+}
+
+/// The parameter `L` of a collision on which the place of a plane wall depends; 3/16 is exact.
+///
+/// Source: Ginzburg & d'Humières, Phys. Rev. E 68, 066614 (2003).
+pub fn magic_parameter(collision: &Collision) -> f64 {
     let (tau, q, m) = match collision {
         Collision::Srt { tau } => (*tau, 1.0 / tau, 1.0 / tau),
         Collision::Mrt { rates: rates @ Rates { q, m, .. } } => (rates.tau(), *q, *m),
     };
-    // L = (τ - 1/2) [(1/s_q - 1/2) + 3 (1/s_m - 1/2)]/4,  u_slip = G (16 L - 3)/(24 ν)
-    let magic = (tau - 0.5) * ((1.0 / q - 0.5) + 3.0 * (1.0 / m - 0.5)) / 4.0;
-    body_force * (16.0 * magic - 3.0) / (24.0 * psmrt_reference::lattice::viscosity(tau))
+    // L = (τ - 1/2) [(1/s_q - 1/2) + 3 (1/s_m - 1/2)]/4
+    (tau - 0.5) * ((1.0 / q - 0.5) + 3.0 * (1.0 / m - 0.5)) / 4.0
 }
 
 /// How far computed velocities are from the exact ones.

@@ -13,7 +13,10 @@
 //! | [`exact`] | exact solutions to compare with |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
+//! | [`tradeoff`] | speed for accuracy, measured |
+//! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
+//! | [`stability`] | where the method survives and where it is right |
 //! | [`machine`] | what this machine has |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -29,5 +32,8 @@ pub mod machine;
 pub mod oracle;
 pub mod output;
 pub mod packing;
+pub mod plan;
 pub mod run;
 pub mod scene;
+pub mod stability;
+pub mod tradeoff;

@@ -12,9 +12,12 @@ use psmrt::command::check::CheckRequest;
 use psmrt::command::golden::GoldenCommand;
 use psmrt::command::oracle::OracleCommand;
 use psmrt::command::pack::PackRequest;
+use psmrt::command::plan::{PlanRequest, Wanted};
 use psmrt::command::report::ReportRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
+use psmrt::command::stability::StabilityRequest;
+use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
 
 /// Grains and water, resolved grain by grain: lattice Boltzmann with a verified oracle.
@@ -105,6 +108,44 @@ Examples:
         #[command(subcommand)]
         command: GoldenCommand,
     },
+    /// Maps where the method survives and where it is right
+    #[command(
+        after_help = "Goes on where it was cut off: runs that the records hold are not made again.
+
+Examples:
+  psmrt stability abc
+  psmrt stability --out golden/stability"
+    )]
+    Stability(StabilityRequest),
+    /// Proposes the cheapest grid, time step, collision and engine for a scene and an error
+    #[command(after_help = "Examples:
+  psmrt plan golden/stokes_settling/scene.toml --error 5%
+  psmrt plan golden/stokes_settling/scene.toml --error 5% --write planned.toml")]
+    Plan {
+        /// Scene file (TOML)
+        scene: PathBuf,
+        /// The error that is wanted: 5% or 0.05
+        #[arg(long, value_name = "ERROR")]
+        error: Wanted,
+        /// Writes the planned scene to a new file
+        #[arg(long, value_name = "FILE")]
+        write: Option<PathBuf>,
+        /// Changes a value of the scene; can be given several times
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
+    },
+    /// Measures what speed costs in accuracy: cells per grain, relaxation time, models, engines
+    #[command(
+        after_help = "Rows are added to the table as they are made; runs that have one are left out.
+
+Examples:
+  psmrt tradeoff --quick
+  psmrt tradeoff settling --oracle-only
+  psmrt tradeoff --out golden/tradeoff"
+    )]
+    Tradeoff(TradeoffRequest),
     /// Says what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -171,6 +212,12 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Pack(request) => command::pack::pack(&request, json),
         Command::Report(request) => command::report::report(&request, json),
         Command::Golden { command } => command::golden::golden(&command),
+        Command::Stability(request) => command::stability::stability(&request),
+        Command::Plan { scene, error, write, set, engine } => {
+            let set = engine.added_to(set)?;
+            command::plan::plan(&PlanRequest { scene, set, error, write, json })
+        }
+        Command::Tradeoff(request) => command::tradeoff::tradeoff(&request, json),
         Command::Oracle { command } => command::oracle::oracle(&command, json),
         Command::Info => {
             command::info::info(json);

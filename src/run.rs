@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::checkpoint::{self, CheckpointError, Progress};
 use crate::engine::{Engine, EngineStop};
 use crate::output::grain_means;
-use crate::output::records::{Recorder, box_row};
+use crate::output::records::{Recorder, box_row, force_row};
 use crate::scene::{Interval, Rhythm, Scene, Steady, What};
 
 /// A run that could not go on.
@@ -35,6 +35,18 @@ pub enum End {
     Steady,
     /// The user has interrupted it; its state is saved.
     Interrupted,
+}
+
+/// Removes the tables that a run cut off before its first checkpoint has left, so that it can start
+/// again. Errors if one cannot be removed.
+pub fn forget_records(scene: &Scene, folder: &Path) -> io::Result<()> {
+    for record in &scene.records {
+        let table = folder.join(format!("{}.csv", record.name));
+        if table.exists() {
+            std::fs::remove_file(table)?;
+        }
+    }
+    Ok(())
 }
 
 /// Who watches a run. Told after every batch of steps; answers whether to go on.
@@ -126,9 +138,12 @@ impl<'a> Run<'a> {
         Ok(Run { scene, folder, recorders, quiet })
     }
 
-    /// Takes the records that are due now.
-    fn observe(&mut self, engine: &dyn Engine) -> io::Result<()> {
+    /// Takes the records that are due now. Errors if the state is broken: it is not written.
+    fn observe(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
         let now = engine.steps();
+        if self.recorders.iter().any(|recorder| recorder.record.rhythm.is_due(now)) {
+            engine.look()?;
+        }
         for recorder in self.recorders.iter_mut().filter(|r| r.record.rhythm.is_due(now)) {
             recorder.take(self.scene, engine)?;
         }
@@ -153,7 +168,9 @@ impl<'a> Run<'a> {
         records.fold(checkpoint.min(now + batch).min(self.scene.stop.steps), u64::min)
     }
 
-    fn save(&mut self, engine: &dyn Engine) -> Result<(), RunError> {
+    /// Saves the state. Errors if it is broken: then the last one that was not is kept.
+    fn save(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+        engine.look()?;
         let lengths = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
         let progress = Progress {
             table_lengths: lengths,
@@ -164,8 +181,9 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Takes the records that are due at the end.
-    fn finish(&mut self, engine: &dyn Engine) -> io::Result<()> {
+    /// Takes the records that are due at the end. Errors if the state is broken.
+    fn finish(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+        engine.look()?;
         for recorder in &mut self.recorders {
             if recorder.record.rhythm == Rhythm::AtEnd {
                 recorder.take(self.scene, engine)?;
@@ -201,13 +219,14 @@ impl Quiet {
         }
         let value = match scene.records[self.steady.record].what {
             What::GrainMeans => grain_means::row(scene, engine)[self.steady.column],
+            What::Loads => force_row(scene, engine)[self.steady.column],
             _ => box_row(scene, engine)[self.steady.column],
         };
-        if let Some(last) = self.last {
-            let change = (value - last).abs() / value.abs();
-            self.rows = if change <= self.steady.tolerance { self.rows + 1 } else { 0 };
-            self.change = Some(change);
-        }
+        // A value that is exactly zero says nothing: the flow has not begun, or has no such component.
+        let change = |last: f64| (value != 0.0).then(|| (value - last).abs() / value.abs());
+        self.change = self.last.and_then(change);
+        let is_quiet = self.change.is_some_and(|change| change <= self.steady.tolerance);
+        self.rows = if is_quiet { self.rows + 1 } else { 0 };
         self.last = Some(value);
     }
 

@@ -4,7 +4,7 @@
 mod common;
 
 use common::Budget;
-use psmrt::cases::{Bench, CASES, Case, Claim, Golden, drifts};
+use psmrt::cases::{Bench, CASES, Case, Claim, Golden, drifts, steadiness};
 use std::path::Path;
 
 fn golden() -> &'static Path {
@@ -22,8 +22,9 @@ fn holds(name: &str, budget: &mut Budget) {
     let mut bench = Bench::new(golden(), None, |_| {});
     let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
     budget.spend(bench.cell_updates());
-    for claim in (case.judge)(&files, &rows).unwrap() {
-        let Claim { what, measured, allowed, why } = &claim;
+    let steady = steadiness(bench.engine_name().word(), &bench.settled());
+    for claim in (case.judge)(&files, &rows).unwrap().iter().chain(&steady) {
+        let Claim { what, measured, allowed, why } = claim;
         println!("{name}: {what}: {measured:.3e} in {allowed:?}");
         assert!(claim.holds(), "{name}: {what}: {measured} is not in {allowed:?} ({why})");
     }
@@ -37,6 +38,21 @@ fn holds(name: &str, budget: &mut Budget) {
 #[test]
 fn poiseuille_flow_holds_its_claims() {
     holds("poiseuille", &mut Budget::oracle(5_000_000));
+}
+
+#[test]
+fn flow_in_a_duct_holds_its_claims() {
+    holds("duct", &mut Budget::oracle(6_000_000));
+}
+
+#[test]
+fn a_sphere_in_a_stream_holds_its_claims() {
+    holds("sphere_drag", &mut Budget::oracle(62_000_000));
+}
+
+#[test]
+fn seepage_through_a_bed_holds_its_claims() {
+    holds("seepage", &mut Budget::oracle(28_000_000));
 }
 
 #[test]

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Budget, trials};
-use psmrt::cases::{Bench, CASES, Golden};
+use psmrt::cases::{Bench, CASES, Golden, steadiness};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -13,7 +13,8 @@ fn holds(name: &str, budget: &mut Budget) {
     let mut bench = Bench::new(&golden, Some(trials::gpu().unwrap()), |_| {});
     let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
     budget.spend(bench.cell_updates());
-    for claim in (case.judge)(&Golden::of(case, &golden), &rows).unwrap() {
+    let steady = steadiness(bench.engine_name().word(), &bench.settled());
+    for claim in (case.judge)(&Golden::of(case, &golden), &rows).unwrap().iter().chain(&steady) {
         println!("{name}: {}: {:.3e}", claim.what, claim.measured);
         assert!(claim.holds(), "{name}: {claim:?}");
     }
@@ -21,6 +22,18 @@ fn holds(name: &str, budget: &mut Budget) {
 
 fn poiseuille_flow_holds_its_claims() {
     holds("poiseuille", &mut Budget::kernel(5_000_000));
+}
+
+fn flow_in_a_duct_holds_its_claims() {
+    holds("duct", &mut Budget::kernel(6_000_000));
+}
+
+fn a_sphere_in_a_stream_holds_its_claims() {
+    holds("sphere_drag", &mut Budget::kernel(60_000_000));
+}
+
+fn seepage_through_a_bed_holds_its_claims() {
+    holds("seepage", &mut Budget::kernel(28_000_000));
 }
 
 fn sphere_arrays_hold_their_claims() {
@@ -38,6 +51,9 @@ fn a_settling_cloud_holds_its_claims() {
 fn main() -> ExitCode {
     trials::run(&[
         ("poiseuille_flow_holds_its_claims", poiseuille_flow_holds_its_claims),
+        ("flow_in_a_duct_holds_its_claims", flow_in_a_duct_holds_its_claims),
+        ("a_sphere_in_a_stream_holds_its_claims", a_sphere_in_a_stream_holds_its_claims),
+        ("seepage_through_a_bed_holds_its_claims", seepage_through_a_bed_holds_its_claims),
         ("sphere_arrays_hold_their_claims", sphere_arrays_hold_their_claims),
         ("a_settling_grain_holds_its_claims", a_settling_grain_holds_its_claims),
         ("a_settling_cloud_holds_its_claims", a_settling_cloud_holds_its_claims),

@@ -60,6 +60,30 @@ fn the_poiseuille_scene_is_exact_and_other_rates_err_by_the_known_slip() {
 }
 
 #[test]
+fn a_run_ends_once_the_force_on_its_grain_is_steady() {
+    let folder = Folder::new("steady_force");
+    let mut budget = Budget::oracle(1_500_000);
+    let out = folder.path("run");
+    let coarse = ["domain.dx=7.5e-5", "stop.steady.tolerance=1e-2"];
+    let mut arguments = vec!["run", "golden/sphere_drag/scene.toml", "--json", "--out"];
+    arguments.push(out.to_str().unwrap());
+    coarse.iter().for_each(|change| arguments.extend(["--set", change]));
+    let output = psmrt(&arguments);
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert_eq!(json(&output)["run"]["state"], "steady", "{}", stdout(&output));
+    let loads = csv::Reader::from_path(out.join("loads.csv")).unwrap();
+    let forces: Vec<f64> = loads
+        .into_deserialize::<std::collections::HashMap<String, String>>()
+        .map(|row| row.unwrap()["force_y (N)"].parse().unwrap())
+        .collect();
+    // A quarter of the box: 10 x 40 x 10 cells, 50 steps from row to row.
+    budget.spend(4000 * 50 * (forces.len() as u64 - 1));
+    let changes: Vec<f64> = forces.windows(2).map(|pair| (pair[1] / pair[0] - 1.0).abs()).collect();
+    let [.., before, a, b, c] = changes[..] else { panic!("{forces:?}") };
+    assert!(a.max(b).max(c) <= 1.02e-2 && before > 0.98e-2, "{changes:?}");
+}
+
+#[test]
 fn a_run_can_be_repeated_from_its_folder() {
     let folder = Folder::new("repeated");
     let mut budget = Budget::oracle(48_000);

@@ -35,11 +35,21 @@ fn relaxation_rates_read_as_reviewed() {
     insta::assert_snapshot!(text);
 }
 
+fn help(arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_psmrt")).args(arguments).output().unwrap();
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn help_of_tradeoff_and_plan_reads_as_reviewed() {
+    insta::assert_snapshot!(format!(
+        "{}\n{}",
+        help(&["tradeoff", "--help"]),
+        help(&["plan", "--help"])
+    ));
+}
+
 #[test]
 fn help_reads_as_reviewed() {
-    let help = |arguments: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_psmrt")).args(arguments).output().unwrap();
-        String::from_utf8(output.stdout).unwrap()
-    };
     insta::assert_snapshot!(format!("{}\n{}", help(&["--help"]), help(&["run", "--help"])));
 }

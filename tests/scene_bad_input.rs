@@ -179,6 +179,7 @@ const BAD: &[Bad] = &[
     Bad("axis = \"x\"\npoint", "axis = \"x\"\nquantity = \"speed\"\npoint", "records[1].quantity", "belongs to"),
     Bad("record = \"box\"", "record = \"line\"", "stop.steady.record", "no record of that name"),
     Bad("column = \"density\"", "column = \"mass\"", "stop.steady.column", "superficial_velocity_x"),
+    Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\nkind = \"loads\"", "stop.steady.column", "force_x, force_y, force_z"),
     Bad("[engine]", "[compare]\nexact = \"plane_poiseuille\"\n[engine]", "compare.exact", "no plane Poiseuille flow"),
     // Grains.
     Bad("diameter = 2e-4", "diameter = -2e-4", "grains[0].diameter", "above 0"),

@@ -9,6 +9,9 @@ pub struct PowerLaw {
     /// The exponent: the slope on log-log axes. An error that falls as `dx^2` has order 2 against
     /// `dx` and -2 against the number of cells.
     pub order: f64,
+    /// Standard error of the order, from how far the points lie off the line; `None` with two points,
+    /// which every line goes through.
+    pub order_error: Option<f64>,
     /// A point `(x0, y0)` of the line.
     pub through: (f64, f64),
 }
@@ -44,13 +47,27 @@ impl PowerLaw {
                 points.len()
             )));
         }
-        Ok(Self { order: sxy / sxx, through: (mean_x.exp(), mean_y.exp()) })
+        let order = sxy / sxx;
+        let off = |(x, y): &(f64, f64)| y.ln() - mean_y - order * (x.ln() - mean_x);
+        let squares: f64 = points.iter().map(|point| off(point).powi(2)).sum();
+        // Var(order) = s²/Sxx with s² = Σ off²/(n - 2)
+        let order_error = (n > 2.0).then(|| (squares / (n - 2.0) / sxx).sqrt());
+        Ok(Self { order, order_error, through: (mean_x.exp(), mean_y.exp()) })
     }
 
     /// The value at `x`.
     pub fn at(&self, x: f64) -> f64 {
         let (x0, y0) = self.through;
         y0 * (x / x0).powf(self.order)
+    }
+
+    /// The size of the order as it is shown: `2.03 ± 0.04`.
+    pub fn order_words(&self) -> String {
+        let order = self.order.abs();
+        match self.order_error {
+            Some(error) => format!("{order:.2} ± {error:.2}"),
+            None => format!("{order:.2}"),
+        }
     }
 
     /// The law as a thin grey line between two x.
@@ -71,6 +88,6 @@ impl Series {
         through: (f64, f64),
         x_range: (f64, f64),
     ) -> Self {
-        PowerLaw { order, through }.series(label, x_range)
+        PowerLaw { order, order_error: None, through }.series(label, x_range)
     }
 }

@@ -1,6 +1,7 @@
 //! The validation report: verdicts, figures and tables as one self-contained HTML page.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use pulldown_cmark::{Event, Options, Parser, html::push_html};
 
 use crate::error::PlotError;
 use crate::figure::Figure;
@@ -55,6 +56,17 @@ pub struct Section {
     pub scenes: Vec<String>,
     /// The command that repeats it.
     pub command: String,
+    /// The command that repeats it at the full scale, and what that takes.
+    pub full: String,
+}
+
+/// A text that belongs to the report, such as a list of errata.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Appendix {
+    /// The place on the page.
+    pub name: String,
+    /// Its text in Markdown; its first heading is its title.
+    pub markdown: String,
 }
 
 /// The whole page.
@@ -66,6 +78,10 @@ pub struct Page {
     pub about: Vec<String>,
     /// The cases.
     pub sections: Vec<Section>,
+    /// Texts after the cases.
+    pub appendices: Vec<Appendix>,
+    /// Where the time went.
+    pub timings: DataTable,
     /// What it was made with: name and value.
     pub environment: Vec<(String, String)>,
 }
@@ -101,8 +117,13 @@ pub fn render_page(page: &Page) -> Result<String, PlotError> {
                 @for paragraph in &page.about { p { (paragraph) } }
                 h2 id="verdicts" { "All claims" }
                 p class="summary" { (summary(page)) }
+                (contents(page))
                 (all_verdicts(page))
                 @for section in sections { (section) }
+                @for appendix in &page.appendices { (self::appendix(appendix)) }
+                h2 id="timings" { "Timings" }
+                p { (page.timings.caption) }
+                (rows(&page.timings))
                 h2 id="environment" { "Environment" }
                 dl {
                     @for (name, value) in &page.environment { dt { (name) } dd { (value) } }
@@ -117,6 +138,38 @@ fn summary(page: &Page) -> String {
     let verdicts = || page.sections.iter().flat_map(|section| &section.verdicts);
     let (all, hold) = (verdicts().count(), verdicts().filter(|verdict| verdict.holds).count());
     format!("{hold} of {all} claims hold.")
+}
+
+/// Links to everything on the page.
+fn contents(page: &Page) -> Markup {
+    html! {
+        nav { "On this page: "
+            @for section in &page.sections { a href=(format!("#{}", section.name)) { (section.title) } "; " }
+            @for appendix in &page.appendices {
+                a href=(format!("#{}", appendix.name)) { (appendix.name) } "; "
+            }
+            a href="#timings" { "timings" } "; " a href="#environment" { "environment" } "."
+        }
+    }
+}
+
+/// Its headings one level lower, below the page's own; HTML in it is shown, not obeyed.
+fn appendix(appendix: &Appendix) -> Markup {
+    let parser = Parser::new_ext(&appendix.markdown, Options::ENABLE_TABLES);
+    let events = parser.map(|event| match event {
+        Event::Html(text) | Event::InlineHtml(text) => Event::Text(text),
+        other => other,
+    });
+    let mut text = String::new();
+    push_html(&mut text, events);
+    let text = text
+        .replace("<h2>", "<h3>")
+        .replace("</h2>", "</h3>")
+        .replace("<h1>", "<h2>")
+        .replace("</h1>", "</h2>")
+        .replace("<table>", "<div class=\"wide\"><table>")
+        .replace("</table>", "</table></div>");
+    html! { section id=(appendix.name) { (PreEscaped(text)) } }
 }
 
 fn all_verdicts(page: &Page) -> Markup {
@@ -175,7 +228,9 @@ fn section(section: &Section) -> Result<Markup, PlotError> {
                     @if i > 0 { ", " }
                     code { (scene) }
                 }
+                @if section.scenes.is_empty() { "none" }
                 ". To repeat: " code { (section.command) }
+                ". Full scale: " (section.full) "."
             }
         }
     })
@@ -185,12 +240,18 @@ fn data_table(table: &DataTable) -> Markup {
     html! {
         details {
             summary { (table.caption) }
-            div class="wide" { table {
-                thead { tr { @for column in &table.columns { th { (column) } } } }
-                tbody {
-                    @for row in &table.rows { tr { @for value in row { td class="number" { (value) } } } }
-                }
-            } }
+            (rows(table))
         }
+    }
+}
+
+fn rows(table: &DataTable) -> Markup {
+    html! {
+        div class="wide" { table {
+            thead { tr { @for column in &table.columns { th { (column) } } } }
+            tbody {
+                @for row in &table.rows { tr { @for value in row { td class="number" { (value) } } } }
+            }
+        } }
     }
 }

@@ -1,14 +1,17 @@
-//! Where cases run their scenes: on one engine, in folders that vanish, with cell updates counted.
+//! Where cases run their scenes: on one engine, with cell updates counted; in folders that vanish, or,
+//! at the full scale, in folders that are kept, so that a run can be cut off and goes on next time.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use tempfile::TempDir;
 
-use super::{Case, CaseError, Table};
+use super::{Case, CaseError, Settled, Table};
+use crate::checkpoint;
 use crate::engine::{Engine, KernelEngine, ReferenceEngine};
 use crate::kernel::Gpu;
-use crate::run::{End, Watcher, run};
+use crate::run::{End, Watcher, forget_records, run};
 use crate::scene::Scene;
 
 /// Which engine a case runs on.
@@ -36,8 +39,15 @@ pub struct Bench {
     gpu: Option<Arc<Gpu>>,
     /// Told which scene runs, with its changes.
     tell: fn(&str),
+    watcher: WatcherOf,
+    /// Where runs are kept at the full scale.
+    kept: Option<PathBuf>,
     cell_updates: u64,
+    settled: Vec<Settled>,
 }
+
+/// Makes who watches a run of a scene.
+pub type WatcherOf = Box<dyn Fn(&Scene) -> Box<dyn Watcher>>;
 
 /// A scene that has been run to its end.
 pub struct Finished {
@@ -45,13 +55,45 @@ pub struct Finished {
     pub scene: Scene,
     /// The engine at the end.
     pub engine: Box<dyn Engine>,
-    folder: TempDir,
+    /// How steady it was, if it was run until it was.
+    pub settled: Option<Settled>,
+    folder: PathBuf,
+    /// Removes the folder when it is dropped, unless runs are kept.
+    _vanishing: Option<TempDir>,
 }
 
 impl Bench {
     /// On the oracle, or on the kernel of the device `gpu`, with the files of the folder `golden`.
     pub fn new(golden: &Path, gpu: Option<Arc<Gpu>>, tell: fn(&str)) -> Self {
-        Bench { golden: golden.to_owned(), gpu, tell, cell_updates: 0 }
+        Bench {
+            golden: golden.to_owned(),
+            gpu,
+            tell,
+            watcher: Box::new(|_| Box::new(GoOn)),
+            kept: None,
+            cell_updates: 0,
+            settled: Vec::new(),
+        }
+    }
+
+    /// With each run watched by what `watcher` makes for its scene.
+    #[must_use]
+    pub fn watched(mut self, watcher: WatcherOf) -> Self {
+        self.watcher = watcher;
+        self
+    }
+
+    /// At the full scale, with the runs kept in `folder`: one that was cut off goes on from its newest
+    /// checkpoint.
+    #[must_use]
+    pub fn at_full_scale(mut self, folder: &Path) -> Self {
+        self.kept = Some(folder.join(self.engine_name().word()));
+        self
+    }
+
+    /// Whether cases should run at their full scale.
+    pub fn is_full(&self) -> bool {
+        self.kept.is_some()
     }
 
     /// The engine.
@@ -62,6 +104,11 @@ impl Bench {
     /// Cell updates so far.
     pub fn cell_updates(&self) -> u64 {
         self.cell_updates
+    }
+
+    /// The runs that have become steady, since they were last asked for.
+    pub fn settled(&mut self) -> Vec<Settled> {
+        std::mem::take(&mut self.settled)
     }
 
     /// A table of the folder of a case. Errors if it cannot be read.
@@ -77,34 +124,87 @@ impl Bench {
     /// Runs a scene of `golden/`, with changes as `--set` takes them, until it is steady. Errors if it
     /// cannot be run or reaches its limit of time first.
     pub fn steady(&mut self, scene: &str, changes: &[String]) -> Result<Finished, CaseError> {
-        let (finished, end) = self.run(scene, changes)?;
+        let (mut finished, end) = self.run(scene, changes)?;
+        let scene = format!("{scene} {}", changes.join(" "));
         if end == End::Steady {
+            let settled = Settled::of(scene, &finished)?;
+            self.settled.push(settled.clone());
+            finished.settled = Some(settled);
             return Ok(finished);
         }
-        let scene = format!("{scene} {}", changes.join(" "));
         Err(CaseError::NotSteady { scene, steps: finished.engine.steps() })
     }
 
     /// Runs a scene of `golden/` to whatever end it has. Errors if it cannot be run.
     pub fn run(&mut self, scene: &str, changes: &[String]) -> Result<(Finished, End), CaseError> {
         (self.tell)(&format!("{} on {}: {}", scene, self.engine_name().word(), changes.join(" ")));
-        let scene = Scene::load(&self.golden.join(scene), changes)?;
-        let mut engine: Box<dyn Engine> = match &self.gpu {
+        let scene = self.load(scene, changes)?;
+        let engine: Box<dyn Engine> = match &self.gpu {
             None => Box::new(ReferenceEngine::new(&scene)?),
             Some(gpu) => Box::new(KernelEngine::new(&scene, gpu, false)?),
         };
-        let folder = tempfile::tempdir()?;
-        let end = run(&scene, engine.as_mut(), folder.path(), None, &mut GoOn)?;
-        self.cell_updates += engine.steps() * scene.setup.domain.cell_count() as u64;
-        Ok((Finished { scene, engine, folder }, end))
+        self.run_on(scene, engine)
+    }
+
+    /// A scene of `golden/` with changes. Errors if it cannot be run.
+    pub fn load(&self, scene: &str, changes: &[String]) -> Result<Scene, CaseError> {
+        Ok(Scene::load(&self.golden.join(scene), changes)?)
+    }
+
+    /// Runs a scene on an engine of the caller's making to whatever end it has.
+    pub fn run_on(
+        &mut self,
+        scene: Scene,
+        mut engine: Box<dyn Engine>,
+    ) -> Result<(Finished, End), CaseError> {
+        let (folder, vanishing) = match &self.kept {
+            Some(kept) => (kept.join(run_name(&scene)), None),
+            None => {
+                let folder = tempfile::tempdir()?;
+                (folder.path().to_owned(), Some(folder))
+            }
+        };
+        fs::create_dir_all(&folder)?;
+        let resumed = match checkpoint::list(&folder).last() {
+            Some(newest) => Some(checkpoint::load(newest, &scene, engine.as_mut())?),
+            None => {
+                forget_records(&scene, &folder)?;
+                None
+            }
+        };
+        let first = engine.steps();
+        let mut watcher = (self.watcher)(&scene);
+        let end = run(&scene, engine.as_mut(), &folder, resumed.as_ref(), watcher.as_mut())?;
+        if end == End::Interrupted {
+            return Err(CaseError::Interrupted);
+        }
+        self.cell_updates += (engine.steps() - first) * scene.setup.domain.cell_count() as u64;
+        let finished = Finished { scene, engine, settled: None, folder, _vanishing: vanishing };
+        Ok((finished, end))
     }
 }
 
 impl Finished {
     /// The rows of one of its records.
     pub fn record(&self, name: &str) -> Result<Table, CaseError> {
-        Table::read(&self.folder.path().join(format!("{name}.csv")))
+        Table::read(&self.folder.join(format!("{name}.csv")))
     }
+}
+
+/// What a scene is changed by to collide with `mrt` (d'Humieres' rates), `srt` or `magic` (two rates,
+/// Lambda = 3/16).
+pub fn collision_changes(word: &str) -> Vec<String> {
+    let changes: &[&str] = match word {
+        "srt" => &["collision.model=\"srt\""],
+        "magic" => &["collision.rates=\"magic\"", "collision.magic=0.1875"],
+        _ => &[],
+    };
+    changes.iter().map(|&change| change.to_owned()).collect()
+}
+
+/// The folder of a run: the same for the same scene with the same changes.
+fn run_name(scene: &Scene) -> String {
+    format!("{:016x}", xxhash_rust::xxh3::xxh3_64(scene.text.as_bytes()))
 }
 
 /// Lets a run go on to its end.

@@ -16,6 +16,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &[],
     rows: "confusion.csv",
+    full: "cargo run --release --example confusion made these rows; minutes",
     measure,
     judge,
     draw,

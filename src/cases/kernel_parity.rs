@@ -18,6 +18,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &[],
     rows: "parity.csv",
+    full: "cargo run --example kernel_parity made these rows; minutes",
     measure,
     judge,
     draw,

@@ -5,18 +5,30 @@
 //! ([`Case::draw`]). `golden/<case>/expected.csv` keeps the rows of the oracle, reviewed, against drift.
 //! Full-scale results are committed beside it with the command that made them.
 
+mod bed_laws;
 mod bench;
 mod cloud_settling;
 mod conformance;
 mod drift;
+mod duct;
 mod kernel_parity;
 mod kernel_speed;
+mod packed_bed;
 mod poiseuille;
+mod seepage;
+mod seepage_figures;
+mod seepage_study;
 mod sphere_arrays;
+mod sphere_drag;
+mod sphere_drag_figures;
+mod sphere_drag_study;
+mod steadiness;
 mod stokes_settling;
+mod stream;
 mod suspension;
 mod table;
 mod ten_cate;
+mod tradeoff;
 
 use std::io;
 use std::ops::RangeInclusive;
@@ -26,13 +38,18 @@ use psmrt_reference::coupling::CouplingError;
 use psmrt_report::Figure;
 use thiserror::Error;
 
+use crate::checkpoint::CheckpointError;
 use crate::engine::{EngineStop, StartError};
 use crate::kernel::KernelError;
 use crate::run::RunError;
 use crate::scene::SceneError;
 
-pub use bench::{Bench, EngineName};
+pub use bed_laws::{BED_LAWS, BedLaw};
+pub use bench::{Bench, EngineName, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
+pub use packed_bed::{Bed, Packing};
+pub use steadiness::{Settled, steadiness};
+pub use stream::Stream;
 pub use table::Table;
 
 /// A case of the acceptance suite.
@@ -48,7 +65,10 @@ pub struct Case {
     /// The file in its folder with reviewed rows: the oracle's at the quick scale, or, without scenes,
     /// those of the full form or of another program.
     pub rows: &'static str,
-    /// Runs its scenes at the quick scale. Errors if one cannot be run or does not become steady.
+    /// How its full form is made and what it holds, in words.
+    pub full: &'static str,
+    /// Runs its scenes, at the quick scale or at the bench's full one. Errors if one cannot be run or
+    /// does not become steady.
     pub measure: fn(&mut Bench) -> Result<Table, CaseError>,
     /// What is claimed of the rows that were measured, both engines' together.
     pub judge: fn(&Golden, &Table) -> Result<Vec<Claim>, CaseError>,
@@ -59,12 +79,16 @@ pub struct Case {
 /// All cases, in the order of the report.
 pub const CASES: &[Case] = &[
     poiseuille::CASE,
+    duct::CASE,
     sphere_arrays::CASE,
+    sphere_drag::CASE,
+    seepage::CASE,
     stokes_settling::CASE,
     ten_cate::CASE,
     suspension::CASE,
     cloud_settling::CASE,
     conformance::CASE,
+    tradeoff::CASE,
     kernel_parity::CASE,
     kernel_speed::CASE,
 ];
@@ -144,6 +168,14 @@ pub enum CaseError {
     /// A table lacks something.
     #[error("{0}")]
     Table(String),
+    /// The user has stopped it.
+    #[error(
+        "interrupted; at the full scale the state is saved, and the same command goes on from it"
+    )]
+    Interrupted,
+    /// A kept run cannot go on from its checkpoint.
+    #[error("{0}; remove the run's folder to start it again")]
+    Checkpoint(#[from] CheckpointError),
     /// A file.
     #[error(transparent)]
     File(#[from] io::Error),

@@ -25,6 +25,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &["scene.toml"],
     rows: "expected.csv",
+    full: "cargo run --release -- report --full --case sphere_arrays goes on to 28 cells per diameter (an hour); cargo run --release -p psmrt-reference --example array_study made study.csv (hours)",
     measure,
     judge,
     draw,
@@ -39,6 +40,10 @@ const RUNS: [(&str, &str, u32); 5] = [
     ("FCC", "0.216", 20),
 ];
 
+/// More of them at the full scale.
+const FULL_RUNS: [(&str, &str, u32); 4] =
+    [("SC", "0.343", 24), ("SC", "0.343", 32), ("BCC", "0.216", 40), ("FCC", "0.216", 40)];
+
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     let mut table = Table::new(&[
         "engine",
@@ -51,7 +56,8 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     ]);
     // In single precision the mean velocity carries noise of some 1e-6.
     let quiet = if bench.engine_name() == EngineName::Reference { 1e-6 } else { 1e-5 };
-    for (lattice, fraction, cells) in RUNS {
+    let more = if bench.is_full() { &FULL_RUNS[..] } else { &[] };
+    for &(lattice, fraction, cells) in RUNS.iter().chain(more) {
         let changes = [
             format!("domain.cells=[{cells}, {cells}, {cells}]"),
             format!("domain.dx={:e}", 240e-6 / f64::from(cells)),
@@ -137,6 +143,11 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         let found = rows.with(&[("engine", &engine)])?.points("solid_fraction", "K")?;
         figure = figure.with(Series::points(engine, found));
     }
+    figure = figure.with_panel(Axis::linear("K/K exact - 1"));
+    for engine in rows.values("engine")? {
+        let found = rows.with(&[("engine", &engine)])?.points("solid_fraction", "error")?;
+        figure = figure.with(Series::points(engine, found));
+    }
     let mut convergence = Figure::new(
         "Simple cubic array, solid fraction 0.343: error against resolution",
         Axis::log("cells per diameter").ticks(&[7.0, 10.0, 14.0]),
@@ -148,7 +159,7 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         let errors: Vec<_> = errors.into_iter().map(|(d, error)| (d, error.abs())).collect();
         let fit = PowerLaw::fit(&errors)?;
         let ends = (errors[0].0, errors[errors.len() - 1].0);
-        let label = format!("{engine}: fit of order {:.2}", -fit.order);
+        let label = format!("{engine}: fit of order {}", fit.order_words());
         convergence =
             convergence.with(Series::points(engine, errors)).with(fit.series(label, ends));
     }

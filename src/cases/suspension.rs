@@ -21,6 +21,7 @@ pub const CASE: Case = Case {
     ],
     scenes: &[],
     rows: "study.csv",
+    full: "cargo run --release --example suspension_study made these rows; hours, and it can be cut off",
     measure,
     judge,
     draw,
@@ -93,5 +94,15 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         let (phi, values) = estimates(rows, wanted, tau)?;
         points.extend(values.into_iter().map(|value| (phi, value)));
     }
-    Ok(vec![figure.with(Series::points("oracle, each placement", points))])
+    let middle = |phi: f64| EXPONENTS.map(|n| (1.0 - phi).powf(n)).iter().sum::<f64>() / 2.0;
+    figure = figure
+        .with(Series::points("oracle, each placement", points.clone()))
+        .with_panel(Axis::linear("over the middle of the two, - 1").range(-0.3, 0.3));
+    for n in EXPONENTS {
+        let curve = (0..=35).map(|i| f64::from(i) / 100.0);
+        let curve = curve.map(|phi| (phi, (1.0 - phi).powf(n) / middle(phi) - 1.0));
+        figure = figure.with(Series::line(format!("(1 - phi)^{n}"), curve.collect()));
+    }
+    let residual = points.into_iter().map(|(phi, value)| (phi, value / middle(phi) - 1.0));
+    Ok(vec![figure.with(Series::points("oracle, each placement", residual.collect()))])
 }

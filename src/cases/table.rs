@@ -21,9 +21,16 @@ impl Table {
 
     /// Reads a CSV file whose lines that start with `#` are comments. Errors if it cannot be read.
     pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let wrong = |error: csv::Error| CaseError::Table(format!("{}: {error}", path.display()));
-        let mut reader =
-            csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).map_err(wrong)?;
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| CaseError::Table(format!("{name}: {error}")))?;
+        Self::parse(&name, &text)
+    }
+
+    /// The same from a file's text; `name` is what messages call it.
+    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
+        let wrong = |error: csv::Error| CaseError::Table(format!("{name}: {error}"));
+        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
         let rows = reader
             .records()

@@ -32,7 +32,7 @@ pub(super) fn execute(
     write_facts(scene, engine, folder, first_step, start, "running")?;
     let mut progress = ProgressBar::new(scene, json, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
-    progress.finish();
+    drop(progress);
     let word = match &end {
         Ok(End::Steady) => "steady",
         Ok(End::Limit) => "limit",
@@ -109,7 +109,7 @@ pub(super) fn say(line: &str) {
 }
 
 /// Becomes true at Ctrl-C (or SIGTERM); the second one ends the process at once.
-fn interruption() -> Arc<AtomicBool> {
+pub(super) fn interruption() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     let set = ctrlc::set_handler(move || {

@@ -7,11 +7,14 @@ pub mod golden;
 pub mod info;
 pub mod oracle;
 pub mod pack;
+pub mod plan;
 mod profile;
 mod progress;
 pub mod report;
 pub mod resume;
 pub mod run;
+pub mod stability;
+pub mod tradeoff;
 
 use std::path::Path;
 
@@ -25,6 +28,7 @@ use crate::oracle::files::FilesError;
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
+use crate::stability::LabError;
 
 /// A command that failed.
 #[derive(Debug, Error)]
@@ -58,6 +62,9 @@ pub enum CommandError {
     /// A case cannot be measured.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// A map of stability cannot be made.
+    #[error(transparent)]
+    Stability(#[from] LabError),
     /// A claim of the report fails.
     #[error("some claims fail: see the report")]
     ClaimsFail,
@@ -119,6 +126,7 @@ impl CommandError {
             | CommandError::Write { .. }
             | CommandError::CandidateFailed
             | CommandError::Case(_)
+            | CommandError::Stability(_)
             | CommandError::ClaimsFail
             | CommandError::GoldenDiffers => 1,
             CommandError::Interrupted { .. } => 130,

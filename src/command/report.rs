@@ -3,16 +3,21 @@
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use clap::Args;
-use psmrt_report::{DataTable, Page, Section, Verdict, render_page, write_svg};
+use psmrt_report::{Appendix, DataTable, Page, Section, Verdict, render_page, write_svg};
 use serde_json::json;
 
-use super::execute::say;
+use super::execute::{interruption, say};
+use super::progress::Progress;
 use super::{CommandError, info, write};
-use crate::cases::{Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Table};
-use crate::kernel::Gpu;
+use crate::cases::{
+    Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Settled, Table, steadiness,
+};
+use crate::kernel::{Gpu, adapters};
 use crate::output::atomic;
 
 /// What `psmrt report` is asked for.
@@ -24,6 +29,13 @@ pub struct ReportRequest {
     /// Folder of the cases
     #[arg(long, value_name = "DIR", default_value = "golden")]
     pub golden: PathBuf,
+    /// Only this case; can be given several times
+    #[arg(long = "case", value_name = "NAME")]
+    pub cases: Vec<String>,
+    /// At the full scale: hours; runs are kept in `runs` in the folder, and a report that was cut off
+    /// goes on from their checkpoints
+    #[arg(long)]
+    pub full: bool,
     /// Only the oracle, even where there is an adapter
     #[arg(long)]
     pub oracle_only: bool,
@@ -35,22 +47,23 @@ pub struct ReportRequest {
 /// Makes the report. Errors if a case cannot be measured or a claim fails; the page is written first.
 pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
     let start = Instant::now();
+    let cases = chosen(&request.cases)?;
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
-    let adapter = gpu
+    let used = gpu
         .as_ref()
         .map_or("none: the kernel was not run".to_owned(), |gpu| gpu.facts().name.clone());
-    let mut benches = vec![Bench::new(&request.golden, None, tell)];
+    let interrupted = interruption();
+    let mut benches = vec![bench(None, request, json, &interrupted)];
     if gpu.is_some() {
-        benches.push(Bench::new(&request.golden, gpu, tell));
+        benches.push(bench(gpu, request, json, &interrupted));
     }
     fs::create_dir_all(&request.out).map_err(CaseError::from)?;
-    let mut sections = Vec::new();
-    for case in CASES {
-        sections.push(section(case, &mut benches, request)?);
+    let (mut sections, mut timings) = (Vec::new(), Vec::new());
+    for (number, case) in cases.iter().enumerate() {
+        eprintln!("{} of {}: {}", number + 1, cases.len(), case.title);
+        sections.push(section(case, &mut benches, &mut timings, request)?);
     }
-    let updates = benches
-        .iter()
-        .map(|bench| format!("{} on {}", bench.cell_updates(), bench.engine_name().word()));
+    let scale = if request.full { "full scale" } else { "quick scale" };
     let page = Page {
         title: "psmrt: validation report".to_owned(),
         about: vec![
@@ -61,13 +74,21 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
                 .to_owned(),
         ],
         sections,
-        environment: vec![
-            ("program".to_owned(), info::program().to_string()),
-            ("machine".to_owned(), info::machine().to_string()),
-            ("adapter".to_owned(), adapter),
-            ("cell updates".to_owned(), updates.collect::<Vec<_>>().join(", ")),
-            ("seconds".to_owned(), format!("{:.0}", start.elapsed().as_secs_f64())),
-        ],
+        appendices: vec![Appendix {
+            name: "errata".to_owned(),
+            markdown: include_str!("../../reference/ERRATA.md").to_owned(),
+        }],
+        timings: DataTable {
+            caption: format!(
+                "Wall-clock time of each case's runs at the {scale}, set-up included: what this report cost on \
+                 this machine, not a benchmark."
+            ),
+            columns: ["case", "engine", "seconds", "cell updates", "million a second"]
+                .map(str::to_owned)
+                .to_vec(),
+            rows: timings,
+        },
+        environment: environment(used, scale, start.elapsed().as_secs_f64()),
     };
     let html = render_page(&page).map_err(CaseError::from)?;
     let index = request.out.join("index.html");
@@ -79,25 +100,80 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
     if page.holds() { Ok(()) } else { Err(CommandError::ClaimsFail) }
 }
 
-fn tell(what: &str) {
-    eprintln!("  {what}");
+/// The cases of these names, all where there are none. Errors if there is no such case.
+fn chosen(names: &[String]) -> Result<Vec<&'static Case>, CommandError> {
+    if let Some(name) = names.iter().find(|name| CASES.iter().all(|case| case.name != **name)) {
+        let known: Vec<_> = CASES.iter().map(|case| case.name).collect();
+        let problem = format!("--case {name}: no such case; there are {}", known.join(", "));
+        return Err(CommandError::Usage(problem));
+    }
+    let wanted = |case: &&Case| names.is_empty() || names.iter().any(|name| name == case.name);
+    Ok(CASES.iter().filter(wanted).collect())
+}
+
+/// Runs scenes on one engine, with a bar for each.
+fn bench(
+    gpu: Option<Arc<Gpu>>,
+    request: &ReportRequest,
+    json: bool,
+    interrupted: &Arc<AtomicBool>,
+) -> Bench {
+    let interrupted = Arc::clone(interrupted);
+    let bench = Bench::new(&request.golden, gpu, |what| eprintln!("  {what}")).watched(Box::new(
+        move |scene| Box::new(Progress::new(scene, json, Arc::clone(&interrupted))),
+    ));
+    if request.full { bench.at_full_scale(&request.out.join("runs")) } else { bench }
+}
+
+fn environment(adapter: String, scale: &str, seconds: f64) -> Vec<(String, String)> {
+    let there = adapters().into_iter().map(|adapter| {
+        format!("{} ({}, {}; {})", adapter.name, adapter.kind, adapter.backend, adapter.driver)
+    });
+    let there: Vec<_> = there.collect();
+    [
+        ("program", info::program().to_string()),
+        ("machine", info::machine().to_string()),
+        ("adapter used", adapter),
+        ("adapters here", if there.is_empty() { "none".to_owned() } else { there.join("; ") }),
+        ("scale", scale.to_owned()),
+        ("seconds", format!("{seconds:.0}")),
+    ]
+    .map(|(name, value)| (name.to_owned(), value))
+    .to_vec()
 }
 
 fn section(
     case: &Case,
     benches: &mut [Bench],
+    timings: &mut Vec<Vec<String>>,
     request: &ReportRequest,
 ) -> Result<Section, CommandError> {
-    eprintln!("{}", case.title);
     let golden = Golden::of(case, &request.golden);
     let mut rows = Table::default();
+    let (mut steady, mut settled) = (Vec::new(), Table::new(&SETTLED));
     for bench in benches {
         // What is judged from committed results is the same on every engine.
         if case.scenes.is_empty() && bench.engine_name() != EngineName::Reference {
             continue;
         }
+        let (start, updates) = (Instant::now(), bench.cell_updates());
         rows.append(bench.measure(case)?);
+        let (seconds, updates) = (start.elapsed().as_secs_f64(), bench.cell_updates() - updates);
+        if updates > 0 {
+            timings.push(vec![
+                case.name.to_owned(),
+                bench.engine_name().word().to_owned(),
+                format!("{seconds:.1}"),
+                updates.to_string(),
+                format!("{:.1}", updates as f64 / seconds / 1e6),
+            ]);
+        }
+        let (engine, runs) = (bench.engine_name().word(), bench.settled());
+        steady.extend(steadiness(engine, &runs));
+        runs.iter().for_each(|run| settled.add(settled_row(engine, run)));
     }
+    let mut claims = (case.judge)(&golden, &rows)?;
+    claims.extend(steady);
     let figures = (case.draw)(&golden, &rows)?;
     for (number, figure) in figures.iter().enumerate() {
         let path = request.out.join(format!("{}_{}.svg", case.name, number + 1));
@@ -110,16 +186,31 @@ fn section(
         name: case.name.to_owned(),
         title: case.title.to_owned(),
         about: case.about.iter().map(|&text| text.to_owned()).collect(),
-        verdicts: (case.judge)(&golden, &rows)?.iter().map(verdict).collect(),
+        verdicts: claims.iter().map(verdict).collect(),
         figures,
-        tables: vec![DataTable {
-            caption: "What was measured".to_owned(),
-            columns: rows.columns,
-            rows: rows.rows,
-        }],
+        tables: [("What was measured", rows), ("How steady the runs were", settled)]
+            .into_iter()
+            .filter(|(_, table)| !table.rows.is_empty())
+            .map(|(caption, Table { columns, rows })| DataTable {
+                caption: caption.to_owned(),
+                columns,
+                rows,
+            })
+            .collect(),
         scenes: case.scenes.iter().map(|scene| format!("golden/{}/{scene}", case.name)).collect(),
-        command: "cargo run --release -- report".to_owned(),
+        command: format!("cargo run --release -- report --case {}", case.name),
+        full: case.full.to_owned(),
     })
+}
+
+/// Columns of the table of steady runs: relative changes of the column that the scene names.
+const SETTLED: [&str; 6] =
+    ["engine", "run", "steps", "tolerance", "change in the last window", "still to go"];
+
+fn settled_row(engine: &str, run: &Settled) -> Vec<String> {
+    let Settled { run, steps, tolerance, change, left } = run;
+    let numbers = [tolerance, change, left].map(|value| format!("{value:.1e}"));
+    [vec![engine.to_owned(), run.clone(), steps.to_string()], numbers.to_vec()].concat()
 }
 
 fn verdict(claim: &Claim) -> Verdict {

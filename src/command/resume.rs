@@ -6,6 +6,7 @@ use super::execute::execute;
 use super::{CommandError, engine, write};
 use crate::checkpoint::{self, Progress};
 use crate::engine::Engine;
+use crate::run::forget_records;
 use crate::scene::Scene;
 
 /// What `psmrt resume` is asked for.
@@ -36,12 +37,7 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
     let progress = go_back(request, &scene, engine.as_mut())?;
     if progress.is_none() {
         eprintln!("there is no checkpoint yet: the run starts again from its beginning");
-        for record in &scene.records {
-            let table = folder.join(format!("{}.csv", record.name));
-            if table.exists() {
-                write(&table, |table| std::fs::remove_file(table))?;
-            }
-        }
+        write(folder, |folder| forget_records(&scene, folder))?;
     }
     execute(&scene, engine.as_mut(), folder, progress.as_ref(), request.json)
 }

@@ -69,6 +69,9 @@ pub trait Engine {
     /// or the device fails.
     fn step(&mut self, count: u64) -> Result<(), EngineStop>;
 
+    /// Looks for a broken state now, whatever the step. Errors as [`Engine::step`].
+    fn look(&mut self) -> Result<(), EngineStop>;
+
     /// Errors if the device has failed while something was observed: what was seen then is not a
     /// number.
     fn still_works(&self) -> Result<(), EngineStop> {

@@ -32,13 +32,23 @@ impl ReferenceEngine {
     /// The scene at its start. Errors if the oracle refuses the set-up.
     pub fn new(scene: &Scene) -> Result<Self, CouplingError> {
         let velocity = scene.initial_velocity;
-        let start = |_| (1.0, velocity);
-        let state = match &scene.free {
-            None => State::Fluid(Box::new(Solver::starting_from(scene.setup.clone(), start)?)),
+        Self::starting_from(&scene.setup, scene.free.as_ref(), |_| (1.0, velocity))
+    }
+
+    /// A fluid whose density and velocity at each cell centre are `state(centre)`; `free` says how the
+    /// grains of the set-up move, if some are free. Errors if the oracle refuses the set-up.
+    pub fn starting_from(
+        setup: &Setup,
+        free: Option<&FreePart>,
+        state: impl Fn(Vec3) -> (f64, Vec3),
+    ) -> Result<Self, CouplingError> {
+        let state = match free {
+            None => State::Fluid(Box::new(Solver::starting_from(setup.clone(), state)?)),
             Some(part) => {
-                let FreePart { setup, grains, planes, settings } = part.clone();
-                let fluid = without_solids(&scene.setup);
-                let solver = CoupledSolver::new(fluid, start, setup, grains, planes, settings)?;
+                let FreePart { setup: grain_setup, grains, planes, settings } = part.clone();
+                let fluid = without_solids(setup);
+                let solver =
+                    CoupledSolver::new(fluid, state, grain_setup, grains, planes, settings)?;
                 State::Coupled(Box::new(solver), Box::new(part.clone()))
             }
         };
@@ -70,6 +80,14 @@ impl Engine for ReferenceEngine {
         match &mut self.state {
             State::Fluid(solver) => solver.run(count).map_err(CoupledStop::from)?,
             State::Coupled(solver, _) => solver.run(count)?,
+        }
+        Ok(())
+    }
+
+    fn look(&mut self) -> Result<(), EngineStop> {
+        match &mut self.state {
+            State::Fluid(solver) => solver.check_now().map_err(CoupledStop::from)?,
+            State::Coupled(solver, _) => solver.check_now()?,
         }
         Ok(())
     }

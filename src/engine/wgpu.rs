@@ -11,7 +11,7 @@ use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::guard::{Evidence, Guard, Sight};
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::setup::SetupError;
+use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
 use thiserror::Error;
 
@@ -61,40 +61,37 @@ impl KernelEngine {
     /// The scene at its start. With `profiled` the device is waited for after each part of a step, so
     /// that each gets its own time. Errors if the device cannot hold the scene.
     pub fn new(scene: &Scene, gpu: &Arc<Gpu>, profiled: bool) -> Result<Self, StartError> {
-        scene.setup.check()?;
-        let grains = match (scene.free_grains(), &scene.free) {
-            (Some(grains), Some(part)) => Some((grains?, part.clone())),
-            _ => None,
+        let velocity = scene.initial_velocity;
+        let mut engine =
+            Self::starting_from(&scene.setup, scene.free.as_ref(), gpu, |_| (1.0, velocity))?;
+        engine.kernel.keep_times(profiled);
+        engine.profile = profiled.then(Profile::default);
+        Ok(engine)
+    }
+
+    /// A fluid whose density and velocity at each cell centre are `state(centre)`; `free` says how the
+    /// grains of the set-up move, if some are free. Errors if the device cannot hold it.
+    pub fn starting_from(
+        setup: &Setup,
+        free: Option<&FreePart>,
+        gpu: &Arc<Gpu>,
+        state: impl Fn(Vec3) -> (f64, Vec3),
+    ) -> Result<Self, StartError> {
+        setup.check()?;
+        let grains = match free {
+            Some(part) => Some((part.free_grains(&setup.domain)?, part.clone())),
+            None => None,
         };
-        let mut kernel = Kernel::new(gpu, scene.setup.clone(), grains.is_some())?;
-        kernel.set_velocity(scene.initial_velocity)?;
-        kernel.keep_times(profiled);
+        let mut kernel = Kernel::new(gpu, setup.clone(), grains.is_some())?;
+        kernel.set_state(state)?;
         Ok(KernelEngine {
-            guard: Guard::new(scene.setup.guard),
+            guard: Guard::new(setup.guard),
             kernel,
             grains,
             steps: 0,
             failure: RefCell::new(None),
-            profile: profiled.then(Profile::default),
+            profile: None,
         })
-    }
-
-    /// Looks for a broken state if it is time to.
-    fn look(&mut self) -> Result<(), EngineStop> {
-        if !self.guard.is_due(self.steps) {
-            return Ok(());
-        }
-        let Summary { density, bare_speed, broken, .. } = self.kernel.summary()?;
-        let broken = match broken {
-            None => None,
-            Some(cell) => {
-                let f = self.kernel.populations(&[cell])?;
-                f.first().and_then(|f| Some((cell, self.guard.symptom(f)?)))
-            }
-        };
-        let sight = Sight { mean_density: density, max_speed: bare_speed, broken };
-        let judged = self.guard.judge(self.kernel.setup(), self.steps, &sight);
-        Ok(judged.map_err(CoupledStop::from)?)
     }
 
     /// Moves the solids after a step, free or as prescribed.
@@ -151,7 +148,9 @@ impl Engine for KernelEngine {
         let moves = is_free || self.solids().iter().any(Solid::moves);
         let interval = self.kernel.setup().guard.interval.max(1);
         while self.steps < end {
-            self.look()?;
+            if self.guard.is_due(self.steps) {
+                self.look()?;
+            }
             let next_look = (self.steps / interval + 1) * interval;
             let now = if moves { 1 } else { end.min(next_look) - self.steps };
             let is_last = self.steps + now == end;
@@ -165,6 +164,20 @@ impl Engine for KernelEngine {
             }
         }
         Ok(())
+    }
+
+    fn look(&mut self) -> Result<(), EngineStop> {
+        let Summary { density, bare_speed, broken, .. } = self.kernel.summary()?;
+        let broken = match broken {
+            None => None,
+            Some(cell) => {
+                let f = self.kernel.populations(&[cell])?;
+                f.first().and_then(|f| Some((cell, self.guard.symptom(f)?)))
+            }
+        };
+        let sight = Sight { mean_density: density, max_speed: bare_speed, broken };
+        let judged = self.guard.judge(self.kernel.setup(), self.steps, &sight);
+        Ok(judged.map_err(CoupledStop::from)?)
     }
 
     fn still_works(&self) -> Result<(), EngineStop> {

@@ -184,14 +184,28 @@ impl Kernel {
 
     /// Starts again from the equilibrium at density 1 and `velocity` everywhere.
     pub fn set_velocity(&mut self, velocity: Vec3) -> Result<(), KernelError> {
-        let count = self.setup.domain.cell_count();
-        // With a body force the momentum before a collision is half a step behind.
-        let u = velocity - 0.5 * self.setup.body_force.unwrap_or_else(Vec3::zeros);
+        self.set_state(|_| (1.0, velocity))
+    }
+
+    /// Starts again from the equilibrium at the density and velocity `state(centre)` at each cell centre.
+    pub fn set_state(&mut self, state: impl Fn(Vec3) -> (f64, Vec3)) -> Result<(), KernelError> {
+        let domain = &self.setup.domain;
+        let half_force = 0.5 * self.setup.body_force.unwrap_or_else(Vec3::zeros);
+        let states: Vec<(f64, Vec3)> = (0..domain.cell_count())
+            .map(|cell| state(domain.centre(domain.coordinates(cell))))
+            // With a body force the momentum before a collision is half a step behind.
+            .map(|(rho, u)| (rho, u - half_force / rho))
+            .collect();
         self.start(|a| {
             let c = Vec3::from(psmrt_reference::directions::C[a].map(f64::from));
-            let cu = c.dot(&u);
-            // f_eq - w = w [3 c·u + 9/2 (c·u)² - 3/2 u²]
-            vec![single(weight(a) * (3.0 * cu + 4.5 * cu * cu - 1.5 * u.dot(&u))); count]
+            let row = states.iter().map(|(rho, u)| {
+                let cu = c.dot(u);
+                // f_eq - w = w [(ρ - 1) + ρ (3 c·u + 9/2 (c·u)² - 3/2 u²)]
+                single(
+                    weight(a) * ((rho - 1.0) + rho * (3.0 * cu + 4.5 * cu * cu - 1.5 * u.dot(u))),
+                )
+            });
+            row.collect()
         })
     }
 

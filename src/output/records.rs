@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Shape;
 
 use super::csv::{Column, Table, Value};
@@ -41,13 +42,17 @@ const LOAD_COLUMNS: [Column; 17] = [
     Column::new("spin_x", "rad/s"),
     Column::new("spin_y", "rad/s"),
     Column::new("spin_z", "rad/s"),
-    Column::new("force_x", "N"),
-    Column::new("force_y", "N"),
-    Column::new("force_z", "N"),
+    FORCE_COLUMNS[0],
+    FORCE_COLUMNS[1],
+    FORCE_COLUMNS[2],
     Column::new("torque_x", "N m"),
     Column::new("torque_y", "N m"),
     Column::new("torque_z", "N m"),
 ];
+
+/// The columns of a record of loads that can be summed over the grains and become steady.
+pub const FORCE_COLUMNS: [Column; 3] =
+    [Column::new("force_x", "N"), Column::new("force_y", "N"), Column::new("force_z", "N")];
 
 /// The records that are tables: kind and columns, after time and step.
 pub fn tables() -> [(&'static str, &'static [Column]); 4] {
@@ -151,6 +156,12 @@ pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
         superficial.z,
         means.max_speed * units.si_velocity(),
     ]
+}
+
+/// The values of [`FORCE_COLUMNS`], summed over all grains.
+pub fn force_row(scene: &Scene, engine: &dyn Engine) -> [f64; 3] {
+    let force: Vec3 = engine.loads().iter().map(|load| load.force).sum();
+    (force * scene.units.si_force()).into()
 }
 
 /// The values of the columns of a profile, cell by cell.

@@ -109,9 +109,10 @@ pub struct StopSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SteadySection {
-    /// Name of a record of kind `box` or `grain_means`.
+    /// Name of a record of kind `box`, `grain_means` or `loads`.
     pub record: String,
-    /// One of its columns, for example `superficial_velocity_x`.
+    /// One of its columns, for example `superficial_velocity_x`; of `loads` a force, summed over all
+    /// grains.
     pub column: String,
     /// Largest relative change from row to row, in (0, 1).
     pub tolerance: f64,

@@ -22,8 +22,6 @@ mod words;
 
 use std::path::Path;
 
-use psmrt_reference::coupling::FreeGrains;
-use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
@@ -95,12 +93,6 @@ impl Scene {
         let file = source.read()?;
         let scene = check::scene(&file, folder).map_err(|trouble| source.error(trouble))?;
         Ok(Scene { text: source.text, ..scene })
-    }
-
-    /// The grains, ready to be moved by the loads of whatever engine computes the fluid; `None` if
-    /// none is free. Errors if they cannot be moved.
-    pub fn free_grains(&self) -> Option<Result<FreeGrains, GrainError>> {
-        self.free.as_ref().map(|free| free.free_grains(&self.setup.domain))
     }
 
     /// The same scene with its text naming the copies of its files: [`Attachment::file_name`].

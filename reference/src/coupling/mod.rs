@@ -121,6 +121,11 @@ impl CoupledSolver {
         (0..count).try_for_each(|_| self.step())
     }
 
+    /// Looks for a broken state of the fluid now, whatever the step.
+    pub fn check_now(&mut self) -> Result<(), CoupledStop> {
+        Ok(self.fluid.check_now()?)
+    }
+
     /// What acts on each grain besides contacts in the coming step, the fluid's last load included.
     pub fn outside_loads(&self) -> Vec<Load> {
         self.grains.outside_loads(self.fluid.loads())

@@ -5,7 +5,7 @@ use super::numbers::{count, steps};
 use super::records::{Record, Rhythm, What};
 use crate::output::csv::Column;
 use crate::output::grain_means;
-use crate::output::records::BOX_COLUMNS;
+use crate::output::records::{BOX_COLUMNS, FORCE_COLUMNS};
 use crate::scene::format_run::{SteadySection, StopSection};
 use crate::scene::units::Units;
 
@@ -21,9 +21,10 @@ pub struct Stop {
 /// A steady-state criterion: three rows in a row change a column by less than `tolerance`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
-    /// Number of the record, of kind [`What::Box`] or [`What::GrainMeans`].
+    /// Number of the record, of kind [`What::Box`], [`What::GrainMeans`] or [`What::Loads`].
     pub record: usize,
-    /// Number of the column in [`BOX_COLUMNS`] or [`grain_means::COLUMNS`].
+    /// Number of the column in [`BOX_COLUMNS`], [`grain_means::COLUMNS`] or, summed over all grains,
+    /// [`FORCE_COLUMNS`].
     pub column: usize,
     /// Largest relative change.
     pub tolerance: f64,
@@ -58,8 +59,8 @@ fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble
     let number = records.iter().position(|record| record.name == *name && wanted(record));
     let Some(record) = number else {
         let names: Vec<_> = records.iter().filter(|r| wanted(r)).map(|r| &r.name).collect();
-        let problem = "there is no record of that name of kind `box` or `grain_means` \
-                       with `every` or `every_steps`";
+        let problem = "there is no record of that name of kind `box`, `grain_means` or \
+                       `loads` with `every` or `every_steps`";
         let remedy = match names.is_empty() {
             true => "add such a record".to_owned(),
             false => format!("such records are: {names:?}"),
@@ -83,11 +84,19 @@ fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble
     Ok(Steady { record, column: number, tolerance: *tolerance })
 }
 
+impl Steady {
+    /// Name of the column, in a scene whose records are `records`.
+    pub fn column_name(&self, records: &[Record]) -> &'static str {
+        columns(&records[self.record]).map_or("", |columns| columns[self.column].name)
+    }
+}
+
 /// The columns of a record that can become steady.
 fn columns(record: &Record) -> Option<&'static [Column]> {
     match record.what {
         What::Box => Some(&BOX_COLUMNS),
         What::GrainMeans => Some(&grain_means::COLUMNS),
+        What::Loads => Some(&FORCE_COLUMNS),
         _ => None,
     }
 }

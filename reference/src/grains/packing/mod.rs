@@ -133,8 +133,8 @@ fn check_radii(radii: &[f64]) -> Result<(), PackingError> {
     }
 }
 
-/// Mean number of neighbours within [`TOUCHING`], and the largest overlap.
-fn contacts(grains: &[Grain], sides: &PeriodicBox, planes: &[Plane]) -> (f64, f64) {
+/// Mean number of neighbours within [`TOUCHING`], and the largest overlap, as [`PackingReport`] has them.
+pub fn contacts(grains: &[Grain], sides: &PeriodicBox, planes: &[Plane]) -> (f64, f64) {
     // Looks a little further than needed: the reach must suit grains of all sizes.
     let largest = grains.iter().map(|grain| grain.radius).fold(0.0, f64::max);
     let overlap_of = |one: &Grain, two: &Grain, image| {

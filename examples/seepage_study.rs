@@ -1,0 +1,205 @@
+//! The full form of seepage: Reynolds numbers, beds, relaxation time and resolution, and how fast a flow
+//! stays stable.
+//!
+//! Adds one row per run to `golden/seepage/study.csv` and `golden/seepage/stability.csv` as it goes; runs that
+//! have a row are left out, so that it can be cut off and started again. An hour or two on one core.
+//!
+//! ```text
+//! cargo run --release --example seepage_study [stability]
+//! ```
+
+use std::error::Error;
+use std::fs::{self, OpenOptions};
+use std::io::Write;
+use std::path::Path;
+
+use psmrt::cases::{Bed, Bench, Packing};
+use psmrt::kernel::Gpu;
+
+const STUDY: &str = "golden/seepage/study.csv";
+const STABILITY: &str = "golden/seepage/stability.csv";
+
+/// A bed of 31 spheres at 8 cells per diameter and tau = 0.51.
+const BED: Bed = Bed {
+    collision: "mrt",
+    weighting: "noble_torczynski",
+    packing: Packing::Random { side: 3.0, count: 31, seed: 1 },
+    reynolds: 1.0,
+    side_cells: 24,
+    tau: 0.51,
+    tolerance: 1e-4,
+};
+
+/// A small one of 9, for fine grids and many runs.
+const SMALL: Bed = Bed { packing: Packing::SMALL, side_cells: 16, ..BED };
+
+fn main() -> Result<(), Box<dyn Error>> {
+    if std::env::args().nth(1).is_some_and(|word| word == "stability") {
+        stability()
+    } else {
+        study()
+    }
+}
+
+fn study() -> Result<(), Box<dyn Error>> {
+    let mut bench = Bench::new(Path::new("golden"), None, |_| {});
+    for bed in runs() {
+        let start = bed.start("reference").join(",") + ",";
+        if has(STUDY, &start)? {
+            continue;
+        }
+        add(STUDY, &bed.row(&mut bench)?)?;
+    }
+    Ok(())
+}
+
+/// All runs, the cheap ones first.
+fn runs() -> Vec<Bed> {
+    let mut runs = Vec::new();
+    // Reynolds numbers.
+    for collision in ["mrt", "srt"] {
+        for reynolds in [0.1, 1.0, 3.0, 10.0, 30.0, 60.0, 100.0] {
+            runs.push(Bed { collision, reynolds, ..BED });
+        }
+    }
+    // Relaxation time.
+    for tau in [0.52, 0.55, 0.6, 0.8, 1.0] {
+        for collision in ["mrt", "srt"] {
+            runs.push(Bed { collision, tau, ..BED });
+        }
+        runs.push(Bed { weighting: "solid_fraction", tau, ..BED });
+    }
+    // Resolution: of an ordered bed, whose permeability is known, and of a small random one.
+    let grids = |taus: &[f64], ordered: &[u32], random: &[u32]| -> Vec<Bed> {
+        let mut runs = Vec::new();
+        for &tau in taus {
+            let fcc = |&side_cells| Bed { packing: Packing::Fcc, side_cells, tau, ..BED };
+            runs.extend(ordered.iter().map(fcc));
+            runs.extend(random.iter().map(|&side_cells| Bed { side_cells, tau, ..SMALL }));
+        }
+        runs
+    };
+    runs.extend(grids(&[0.55, 0.52, 0.51], &[12, 16, 24], &[16, 24]));
+    // Other beds.
+    for reynolds in [1.0, 10.0, 30.0] {
+        for seed in 2..=5 {
+            let packing = Packing::Random { side: 3.0, count: 31, seed };
+            runs.push(Bed { packing, reynolds, ..BED });
+        }
+    }
+    runs.extend(grids(&[0.55, 0.52], &[32], &[32]));
+    runs.push(Bed { tau: 0.505, ..BED });
+    // Larger ones.
+    for reynolds in [1.0, 30.0] {
+        for (side, count, side_cells) in [(4.0, 73, 32), (5.0, 143, 40)] {
+            let packing = Packing::Random { side, count, seed: 1 };
+            runs.push(Bed { packing, reynolds, side_cells, ..BED });
+        }
+    }
+    // Finer grids.
+    for reynolds in [30.0, 1.0] {
+        runs.push(Bed { reynolds, side_cells: 36, ..BED });
+    }
+    runs.extend(grids(&[0.505], &[12, 16, 24], &[16, 24]));
+    runs.extend(grids(&[0.51], &[32], &[32]));
+    runs.extend(grids(&[0.55], &[], &[48]));
+    for tau in [0.503, 0.505] {
+        runs.push(Bed { tau, ..BED });
+        runs.push(Bed { collision: "srt", tau, ..BED });
+        runs.push(Bed { weighting: "solid_fraction", tau, ..BED });
+    }
+    runs.push(Bed { reynolds: 100.0, side_cells: 36, ..BED });
+    runs
+}
+
+/// Doubles the force until the flow breaks, or the Reynolds number is past 200.
+fn stability() -> Result<(), Box<dyn Error>> {
+    let mut oracle = Bench::new(Path::new("golden"), None, |_| {});
+    let mut kernel = Bench::new(Path::new("golden"), Some(Gpu::open(None)?), |_| {});
+    for (tau, collisions) in [
+        (0.6, &["srt", "mrt", "magic"] as &[&'static str]),
+        (0.55, &["srt", "mrt", "magic"]),
+        (0.53, &["srt", "mrt", "magic"]),
+        (0.51, &["srt", "mrt", "magic"]),
+        (0.505, &["srt", "mrt", "magic"]),
+        (0.501, &["srt", "mrt"]),
+    ] {
+        for weighting in ["noble_torczynski", "solid_fraction"] {
+            for &collision in collisions {
+                let bed = Bed { collision, weighting, tau, ..SMALL };
+                climb(&mut oracle, bed)?;
+                if weighting == "noble_torczynski" && collision != "magic" && tau < 0.52 {
+                    climb(&mut kernel, bed)?;
+                }
+            }
+        }
+    }
+    // The paper's resolution.
+    for tau in [0.51, 0.505] {
+        for collision in ["srt", "mrt"] {
+            climb(&mut oracle, Bed { collision, tau, side_cells: 32, ..SMALL })?;
+        }
+    }
+    Ok(())
+}
+
+/// Begins where a flow is stable by experience, and halves the force first if this one is not.
+fn climb(bench: &mut Bench, bed: Bed) -> Result<(), Box<dyn Error>> {
+    // With B = epsilon and tau near 1/2 the bed is hardly permeable: much force for little flow.
+    let mut reynolds = match (bed.tau < 0.52, bed.weighting) {
+        (false, _) => 2.0,
+        (true, "solid_fraction") => 256.0,
+        (true, _) => 32.0,
+    };
+    let mut down = false;
+    loop {
+        let (stable, found) = survives(bench, Bed { reynolds, ..bed })?;
+        if stable && (down || found > 200.0) {
+            return Ok(());
+        }
+        if !stable && !down && known(bench, Bed { reynolds: 0.5 * reynolds, ..bed })?.is_some() {
+            return Ok(());
+        }
+        down = down || !stable;
+        reynolds *= if down { 0.5 } else { 2.0 };
+        if !(0.1..1e6).contains(&reynolds) {
+            return Ok(());
+        }
+    }
+}
+
+/// Whether a flow is stable, and its Reynolds number.
+fn survives(bench: &mut Bench, bed: Bed) -> Result<(bool, f64), Box<dyn Error>> {
+    let row = match known(bench, bed)? {
+        Some(row) => row,
+        None => {
+            // Five viscous times, in which a slow flow becomes steady to 1 %; a fast one sooner.
+            let steps = (5.0 * bed.viscous_time()).clamp(1000.0, 6000.0);
+            let row = bed.row_after(bench, format!("{steps:.0}").parse()?)?;
+            add(STABILITY, &row)?;
+            row
+        }
+    };
+    let [outcome, found] = ["outcome", "Re"]
+        .map(|name| Bed::COLUMNS.iter().position(|column| *column == name).map_or("", |i| &row[i]));
+    Ok((outcome == "stable", found.parse()?))
+}
+
+/// The row of a run that was made already.
+fn known(bench: &Bench, bed: Bed) -> Result<Option<Vec<String>>, Box<dyn Error>> {
+    let start = bed.start(bench.engine_name().word()).join(",") + ",";
+    let rows = fs::read_to_string(STABILITY)?;
+    let row = rows.lines().find(|line| line.starts_with(&start));
+    Ok(row.map(|line| line.split(',').map(str::to_owned).collect()))
+}
+
+fn has(file: &str, start: &str) -> Result<bool, Box<dyn Error>> {
+    Ok(fs::read_to_string(file)?.lines().any(|line| line.starts_with(start)))
+}
+
+fn add(file: &str, row: &[String]) -> Result<(), Box<dyn Error>> {
+    let line = row.join(",") + "\n";
+    OpenOptions::new().append(true).open(file)?.write_all(line.as_bytes())?;
+    print!("{line}");
+    Ok(())
+}

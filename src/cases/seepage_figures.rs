@@ -1,0 +1,203 @@
+//! The figures of seepage.
+
+use psmrt_report::{Axis, Figure, Series};
+
+use super::seepage::over_law;
+use super::seepage_study::{grids, limit, steady, taus};
+use super::{BED_LAWS, CaseError, Table};
+
+/// Solid fraction at which the laws are drawn.
+const FRACTION: f64 = 0.6;
+
+/// All of them: `rows` of the quick form, and those of the study.
+pub fn all(
+    rows: &Table,
+    study: &Table,
+    stability: &Table,
+    ordered: f64,
+) -> Result<Vec<Figure>, CaseError> {
+    Ok(vec![
+        friction_figure(rows, study)?,
+        grid_figure(study, ordered)?,
+        tau_figure(study)?,
+        stability_figure(stability)?,
+    ])
+}
+
+/// psi against Re, and below it over the law of Beetstra et al.
+fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
+    let mut figure = Figure::new(
+        "Seepage through random beds",
+        Axis::log("Re = U d/(nu (1 - porosity))").range(0.08, 250.0),
+        Axis::log("psi"),
+    );
+    let law = |psi_re: fn(f64, f64) -> f64| {
+        let at = (0..=60).map(|i| 0.1 * 2000.0_f64.powf(f64::from(i) / 60.0));
+        at.map(move |re| (re, psi_re(FRACTION, re))).collect::<Vec<_>>()
+    };
+    for (i, one) in BED_LAWS.iter().enumerate() {
+        let points = law(one.psi_re).into_iter().map(|(re, psi_re)| (re, psi_re / re)).collect();
+        let series =
+            if i < 2 { Series::dashed(one.name, points) } else { Series::line(one.name, points) };
+        figure = figure.with(series.with_colour(i));
+    }
+    let found = points(rows, study)?;
+    for (i, (label, points)) in found.iter().enumerate() {
+        let points = points.iter().map(|&(re, psi, _)| (re, psi)).collect();
+        figure = figure.with(Series::points(label.clone(), points).with_colour(BED_LAWS.len() + i));
+    }
+    figure = figure.with_panel(Axis::linear("psi over Beetstra et al.").range(0.6, 1.4));
+    let beetstra = law(BED_LAWS[3].psi_re);
+    for (i, one) in BED_LAWS.iter().enumerate() {
+        let ratio = |((re, value), (_, of)): (&(f64, f64), &(f64, f64))| (*re, value / of);
+        let points = law(one.psi_re).iter().zip(&beetstra).map(ratio).collect();
+        let series =
+            if i < 2 { Series::dashed(one.name, points) } else { Series::line(one.name, points) };
+        figure = figure.with(series.with_colour(i));
+    }
+    for (i, (label, points)) in found.into_iter().enumerate() {
+        let points = points.into_iter().map(|(re, _, ratio)| (re, ratio)).collect();
+        figure = figure.with(Series::points(label, points).with_colour(BED_LAWS.len() + i));
+    }
+    Ok(figure.note(
+        "tau = 0.51; laws at a porosity of 0.4, points over the law at their own; real beds scatter by 10 to 15 %",
+    ))
+}
+
+/// A label with Re, psi, and psi over the law of Beetstra et al.
+type Found = (String, Vec<(f64, f64, f64)>);
+
+fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
+    let mut all = Vec::new();
+    for engine in rows.values("engine")? {
+        let wanted = [("engine", engine.as_str()), ("packing", "random 2"), ("collision", "mrt")];
+        all.push((format!("9 spheres, 8 cells, {engine}"), rows.with(&wanted)?));
+    }
+    let mrt = steady(study, "mrt")?.with(&[("tau", "0.51")])?;
+    for (packing, cells, label) in [
+        ("random 3", "8.0000", "31 spheres, 8 cells, five beds"),
+        ("random 3", "12.0000", "31 spheres, 12 cells"),
+        ("random 4", "8.0000", "73 spheres, 8 cells"),
+        ("random 5", "8.0000", "143 spheres, 8 cells"),
+    ] {
+        let own = mrt.with(&[("packing", packing), ("cells_per_diameter", cells)])?;
+        all.push((label.to_owned(), own));
+    }
+    let srt = steady(study, "srt")?.with(&[("tau", "0.51"), ("packing", "random 3")])?;
+    all.push(("31 spheres, 8 cells, SRT".to_owned(), srt));
+    let mut found = Vec::new();
+    for (label, table) in all {
+        let ratios = over_law(&table)?;
+        let both = table.points("Re", "psi")?.into_iter().zip(ratios);
+        let points: Vec<_> = both.map(|((re, psi), ratio)| (re, psi, ratio)).collect();
+        if !points.is_empty() {
+            found.push((label, points));
+        }
+    }
+    Ok(found)
+}
+
+/// The ordered bed and nine spheres on several grids.
+fn grid_figure(study: &Table, ordered: f64) -> Result<Figure, CaseError> {
+    let x = || Axis::linear("(cell size/diameter)²").range(0.0, 0.0165);
+    let mut figure = Figure::new(
+        "Resistance of beds against resolution, Re about 1",
+        x(),
+        Axis::linear("ordered bed: psi over the exact one").range(0.5, 1.3),
+    );
+    const TAUS: [&str; 4] = ["0.505", "0.51", "0.52", "0.55"];
+    let series = |packing: &str, tau: &str, unit: f64| {
+        let points = grids(study, packing, tau)?;
+        let points = points.into_iter().map(|(d, psi_re)| (d.powi(-2), psi_re / unit)).collect();
+        Ok::<_, CaseError>(Series::line_points(format!("tau {tau}"), points))
+    };
+    for (colour, tau) in TAUS.into_iter().enumerate() {
+        figure = figure.with(series("fcc", tau, ordered)?.with_colour(colour));
+    }
+    figure = figure.with_panel(Axis::linear("nine spheres: psi Re").range(100.0, 240.0));
+    for (colour, tau) in TAUS.into_iter().enumerate() {
+        figure = figure.with(series("random 2", tau, 1.0)?.with_colour(colour));
+    }
+    Ok(figure
+        .note("8 cells per diameter are at 0.0156, 16 at 0.0039; a straight line is second order"))
+}
+
+/// What the relaxation time does.
+fn tau_figure(study: &Table) -> Result<Figure, CaseError> {
+    let mut figure = Figure::new(
+        "Resistance of a bed of 31 spheres at 8 cells per diameter, Re about 1",
+        Axis::log("tau - 1/2").range(0.0025, 0.6),
+        Axis::log("psi Re"),
+    );
+    for (collision, weighting, label) in [
+        ("mrt", "noble_torczynski", "MRT, B(epsilon, tau)"),
+        ("srt", "noble_torczynski", "SRT, B(epsilon, tau)"),
+        ("mrt", "solid_fraction", "MRT, B = epsilon"),
+    ] {
+        let points = taus(study, collision, weighting)?;
+        let points = points.into_iter().map(|(tau, psi_re)| (tau - 0.5, psi_re)).collect();
+        figure = figure.with(Series::line_points(label, points));
+    }
+    let across = |y: f64| vec![(0.0025, y), (0.6, y)];
+    Ok(figure
+        .with(Series::dashed("Carman-Kozeny: 180", across(180.0)))
+        .with(Series::dashed("Blake-Kozeny: 150", across(150.0)))
+        .note("the permeability d² porosity³/((1 - porosity)² psi Re) falls as psi Re rises"))
+}
+
+/// How fast flows are stable.
+fn stability_figure(stability: &Table) -> Result<Figure, CaseError> {
+    let mut figure = Figure::new(
+        "Largest stable Re in a bed of nine spheres at 8 cells per diameter",
+        Axis::log("tau - 1/2").range(0.0002, 0.2),
+        Axis::log("Re = U d/(nu (1 - porosity))").range(0.5, 1000.0),
+    );
+    for (engine, collision, weighting, label) in [
+        ("reference", "srt", "noble_torczynski", "SRT, B(epsilon, tau)"),
+        ("reference", "mrt", "noble_torczynski", "MRT, B(epsilon, tau)"),
+        ("reference", "magic", "noble_torczynski", "Lambda = 3/16, B(epsilon, tau)"),
+        ("reference", "srt", "solid_fraction", "SRT, B = epsilon"),
+        ("reference", "mrt", "solid_fraction", "MRT, B = epsilon"),
+        ("wgpu", "srt", "noble_torczynski", "SRT, B(epsilon, tau), single precision"),
+        ("wgpu", "mrt", "noble_torczynski", "MRT, B(epsilon, tau), single precision"),
+    ] {
+        let wanted = [
+            ("engine", engine),
+            ("collision", collision),
+            ("weighting", weighting),
+            ("cells_per_diameter", "8.0000"),
+        ];
+        let own = stability.with(&wanted)?;
+        let mut points = Vec::new();
+        for tau in own.values("tau")? {
+            let limit = limit(&own, &[("tau", &tau)])?;
+            let above: f64 = tau.parse().map_or(f64::NAN, |tau: f64| tau - 0.5);
+            if limit.stable > 0.0 {
+                points.push((above, limit.stable));
+            }
+        }
+        if !points.is_empty() {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            figure = figure.with(Series::line_points(label, points));
+        }
+    }
+    let across = |y: f64| vec![(0.0002, y), (0.2, y)];
+    let inlet = (0..=40).map(|i| 0.01 * 20.0_f64.powf(f64::from(i) / 40.0));
+    let inlet = inlet.map(|above| (above, doubling(above))).filter(|p| p.1 < 1000.0).collect();
+    Ok(figure
+        .with(Series::line("inlet into the paper's bed: density doubles", inlet))
+        .with(Series::dashed("the paper, MRT: 30", across(30.0)))
+        .with(Series::dashed("the paper, SRT: 2", across(2.0)))
+        .note("the next run, with twice the force, was stopped, or Re was past 200 already"))
+}
+
+/// Re at which the pressure that drives water through 218 cells of the paper's bed (16 cells per diameter,
+/// porosity 0.4) is that of a density twice the reference one: `Δp = c_s² Δρ` with `Δρ = 1`.
+fn doubling(above: f64) -> f64 {
+    let (nu, phi) = (above / 3.0, FRACTION);
+    let (d, length) = (16.0_f64, 218.0);
+    // Δp = L psi U² φ/(d ε³), U = Re ν φ/d, psi = 180/Re + 1.2:  1/3 = A (180 Re + 1.2 Re²)
+    let a = length * nu * nu * phi.powi(3) / (d.powi(3) * (1.0 - phi).powi(3));
+    let c = 1.0 / (3.0 * a);
+    (-180.0 + (180.0 * 180.0 + 4.8 * c).sqrt()) / 2.4
+}

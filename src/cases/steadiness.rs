@@ -1,0 +1,113 @@
+//! How steady a run was when it was taken for steady: part of every verdict.
+
+use super::bench::Finished;
+use super::{CaseError, Claim, Table};
+
+/// A run that its criterion has ended, and what the last rows of its record say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settled {
+    /// The scene and its changes.
+    pub run: String,
+    /// Steps made.
+    pub steps: u64,
+    /// What the criterion allows: relative change from row to row.
+    pub tolerance: f64,
+    /// Relative change over the last window, from one row to the next.
+    pub change: f64,
+    /// What is still to go, relative: if successive changes go on falling at their last ratio, their sum.
+    /// The change itself where they do not fall, as where all that is left is rounding.
+    pub left: f64,
+}
+
+impl Settled {
+    /// Reads the last rows of the record that has ended the run.
+    pub(super) fn of(run: String, finished: &Finished) -> Result<Self, CaseError> {
+        let scene = &finished.scene;
+        let Some(steady) = &scene.stop.steady else {
+            return Err(CaseError::Table(format!("{run}: the scene has no `stop.steady`")));
+        };
+        let values = values(
+            &finished.record(&scene.records[steady.record].name)?,
+            steady.column_name(&scene.records),
+        )?;
+        let Some((change, left)) = drift(&values) else {
+            return Err(CaseError::Table(format!("{run}: too few rows to be steady")));
+        };
+        let (steps, tolerance) = (finished.engine.steps(), steady.tolerance);
+        Ok(Settled { run, steps, tolerance, change, left })
+    }
+}
+
+/// Change over the last window, and what is still to go; `None` of fewer than three values.
+fn drift(values: &[f64]) -> Option<(f64, f64)> {
+    let &[.., before, last, now] = values else { return None };
+    let change = ((now - last) / now).abs();
+    let ratio = (now - last) / (last - before);
+    // c (r + r² + ...) = c r/(1 - r)
+    let left = if ratio > 0.0 && ratio < 1.0 { change * ratio / (1.0 - ratio) } else { change };
+    Some((change, left))
+}
+
+/// The values of a column, time by time, summed over the rows (grains) of each.
+fn values(rows: &Table, column: &str) -> Result<Vec<f64>, CaseError> {
+    let heading = rows.columns.iter().find(|name| name.split(' ').next() == Some(column));
+    let heading = heading.ok_or_else(|| CaseError::Table(format!("no column {column:?}")))?;
+    let mut sums: Vec<(f64, f64)> = Vec::new();
+    for (step, value) in rows.points("step", heading)? {
+        match sums.last_mut() {
+            Some((last, sum)) if *last == step => *sum += value,
+            _ => sums.push((step, value)),
+        }
+    }
+    Ok(sums.into_iter().map(|(_, sum)| sum).collect())
+}
+
+/// That runs were steady; none if there were none. `engine` made them.
+pub fn steadiness(engine: &str, runs: &[Settled]) -> Option<Claim> {
+    let worst = runs.iter().map(|run| run.left / run.tolerance).reduce(f64::max)?;
+    Some(Claim {
+        what: format!(
+            "{engine}: steady runs: what was still to go, over the tolerance of the criterion, at most"
+        ),
+        measured: worst,
+        allowed: 0.0..=10.0,
+        why: "three rows in a row have changed by less than the tolerance, or there is no result; a flow \
+              that creeps could pass that with far to go, so the ratio of its last changes is looked at. \
+              Ten times the tolerance is below what each case allows for other reasons",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Settled, drift, steadiness};
+
+    /// A run whose value approaches 1 by the factor `ratio` from row to row, taken at the first row that
+    /// changes by less than `tolerance`.
+    fn approach(ratio: f64, tolerance: f64) -> (Settled, f64) {
+        let mut values = vec![0.0, 1.0 - ratio];
+        while (values[values.len() - 1] / values[values.len() - 2] - 1.0).abs() > tolerance {
+            let away = 1.0 - values[values.len() - 1];
+            values.push(1.0 - ratio * away);
+        }
+        let (change, left) = drift(&values).unwrap();
+        let run = Settled { run: String::new(), steps: 0, tolerance, change, left };
+        (run, 1.0 - values[values.len() - 1])
+    }
+
+    #[test]
+    fn what_is_left_to_go_is_what_a_geometric_approach_has_left() {
+        for ratio in [0.3, 0.9, 0.99] {
+            let (run, left) = approach(ratio, 1e-4);
+            // Relative to the last value instead of the limit, 1: another 1 % at most.
+            assert!((run.left / left - 1.0).abs() < 0.02, "{ratio}: {} {left}", run.left);
+        }
+    }
+
+    #[test]
+    fn a_flow_that_creeps_meets_the_criterion_and_fails_the_claim() {
+        let (quick, creeping) = (approach(0.5, 1e-4).0, approach(0.99, 1e-4).0);
+        assert!(steadiness("reference", &[quick.clone()]).unwrap().holds());
+        assert!(!steadiness("reference", &[quick, creeping]).unwrap().holds());
+        assert!(steadiness("reference", &[]).is_none());
+    }
+}

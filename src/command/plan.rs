@@ -1,0 +1,337 @@
+//! `psmrt plan`: the cheapest way to compute a scene to a given error.
+
+use std::fs::OpenOptions;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use super::check::duration;
+use super::execute::say;
+use super::{CommandError, engine, engine_changes};
+use crate::cases::CaseError;
+use crate::engine::Engine;
+use crate::estimate::calibrate;
+use crate::kernel::adapters;
+use crate::plan::facts::{Facts, Limit};
+use crate::plan::options::{Speed, Way, as_it_is, cheapest, most_accurate, ways};
+use crate::plan::write::text;
+use crate::scene::{EngineKind, Scene};
+use crate::tradeoff::evidence::{committed_sweep, grain_points, wall_points};
+use crate::tradeoff::knobs::CollisionKnob;
+use crate::tradeoff::model::{LEAST_ERROR, Models};
+use crate::tradeoff::{support, trial};
+
+/// What `psmrt plan` is asked for.
+#[derive(Clone, Debug)]
+pub struct PlanRequest {
+    /// The scene file.
+    pub scene: PathBuf,
+    /// Changes `key=value`.
+    pub set: Vec<String>,
+    /// The error that is wanted.
+    pub error: Wanted,
+    /// File for the planned scene.
+    pub write: Option<PathBuf>,
+    /// Whether to print one JSON object instead of text.
+    pub json: bool,
+}
+
+/// A relative error, written `5%` or `0.05`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wanted(pub f64);
+
+impl std::str::FromStr for Wanted {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (number, percent) = match text.trim().strip_suffix('%') {
+            Some(number) => (number.trim_end(), true),
+            None => (text.trim(), false),
+        };
+        let value: f64 =
+            number.parse().map_err(|_| format!("{text:?} is no number: write it as 5% or 0.05"))?;
+        let value = if percent { value / 100.0 } else { value };
+        match value {
+            value if value > 0.0 && value < 1.0 => Ok(Wanted(value)),
+            value if value >= 1.0 && !percent => Err(format!(
+                "{text} would be {} %: write {text}% or a fraction like 0.05",
+                100.0 * value
+            )),
+            _ => Err(format!("{text}: it must lie between 0 and 100 % (exclusive)")),
+        }
+    }
+}
+
+/// How long the speed of an engine is measured.
+const CALIBRATION: Duration = Duration::from_millis(400);
+
+/// Speed of one relaxation time over that of many, where the scene does not measure it: README, the bed of
+/// spheres on two threads (8.0 and 6.4 million cell updates a second).
+const SRT_OVER_MRT: f64 = 8.0 / 6.4;
+
+/// Makes a plan. Errors if the evidence knows nothing of such a scene, or no way reaches the error.
+pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
+    let scene = Scene::load(&request.scene, &request.set)?;
+    let name = request.scene.display();
+    let facts = Facts::of(&scene)?
+        .map_err(|why| CommandError::Usage(format!("{name} cannot be planned: {why}")))?;
+    let wanted = request.error.0;
+    let sweep = committed_sweep()?;
+    let models = Models::fit(&grain_points(&sweep)?, &wall_points(&sweep));
+    if matches!(facts.limit, Limit::Grains { .. }) && wanted < LEAST_ERROR {
+        return Err(CommandError::Usage(format!(
+            "an error of {} is below what the evidence reaches with grains ({}): there the place of a grain \
+             on the grid counts as much as the grid; plan for {} and check it by a finer run",
+            percent(wanted),
+            percent(LEAST_ERROR),
+            percent(LEAST_ERROR)
+        )));
+    }
+    let speeds = speeds(&scene, request)?;
+    let all = ways(&facts, &models, &speeds);
+    let Some(best) = cheapest(&all, wanted) else {
+        return Err(unreachable_error(&all, wanted, &facts));
+    };
+    let now = now(&scene, &facts, &models, &speeds);
+    let alternatives = alternatives(&all, best, wanted);
+    let evidence = evidence(&facts, &models, best)?;
+    if request.json {
+        let alternatives: Vec<Value> = alternatives
+            .iter()
+            .map(|(what, way)| json!({ "what": what, "way": way.map(to_json) }))
+            .collect();
+        let all = json!({
+            "wanted": wanted, "now": now.as_ref().map(to_json), "plan": to_json(best),
+            "alternatives": alternatives, "evidence": evidence,
+        });
+        say(&all.to_string());
+    } else {
+        print(&scene, &facts, wanted, now.as_ref(), best, &alternatives, &evidence);
+    }
+    match &request.write {
+        Some(file) => write_scene(&scene, request, best, file),
+        None => Ok(()),
+    }
+}
+
+/// The scene as it is, on its own engine.
+fn now(scene: &Scene, facts: &Facts, models: &Models, speeds: &[Speed]) -> Option<Way> {
+    let collision = trial::collision_of(&scene.setup.collision)?;
+    let kernel = scene.engine == EngineKind::Wgpu;
+    let engine = if kernel { "wgpu" } else { "reference" };
+    let speed = speeds.iter().find(|speed| speed.engine == engine)?;
+    as_it_is(facts, models, collision, speed)
+}
+
+/// The engines that may be proposed, with their speed on this scene and machine: the oracle, and the
+/// kernel on a GPU in hardware or where the scene asks for it.
+fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandError> {
+    let kernel = scene.engine == EngineKind::Wgpu || adapters().iter().any(|a| !a.is_software());
+    let mut speeds = Vec::new();
+    for kind in ["reference", "wgpu"].into_iter().take(1 + usize::from(kernel)) {
+        let mut set = request.set.clone();
+        set.extend(engine_changes(Some(kind), None)?);
+        let scene = Scene::load(&request.scene, &set)?;
+        let mut engine: Box<dyn Engine> = engine(&scene, &request.scene, false)?;
+        let Some([per_second, _]) = calibrate(&scene, engine.as_mut(), CALIBRATION) else {
+            let problem =
+                "its first steps fail: `psmrt run` says why; a plan needs a scene that runs";
+            return Err(CommandError::Usage(format!("{}: {problem}", request.scene.display())));
+        };
+        let is_srt = trial::collision_of(&scene.setup.collision) == Some(CollisionKnob::Srt);
+        let (srt, mrt) = if is_srt {
+            (1.0 / per_second, SRT_OVER_MRT / per_second)
+        } else {
+            (1.0 / per_second / SRT_OVER_MRT, 1.0 / per_second)
+        };
+        speeds.push(Speed { engine: kind.to_owned(), mrt, srt });
+    }
+    Ok(speeds)
+}
+
+fn unreachable_error(all: &[Way], wanted: f64, facts: &Facts) -> CommandError {
+    let Some(best) = most_accurate(all, f64::INFINITY) else {
+        let [nx, ny, nz] = facts.cells;
+        return CommandError::Usage(format!(
+            "no grid that fills the box of {nx} x {ny} x {nz} cells lies within the evidence (4 to 23 cells \
+             per diameter, 6 and more between plates, tau 0.6 to 2, 0.1 cells per time step at most): choose a box whose sides share \
+             a larger divisor, or a slower flow"
+        ));
+    };
+    CommandError::Usage(format!(
+        "an error of {} is out of reach within the evidence: the best is {} ({} to {}), {}; ask for more \
+         than {}",
+        percent(wanted),
+        percent(best.error),
+        percent(best.band[0]),
+        percent(best.band[1]),
+        words(best),
+        percent(best.band[1])
+    ))
+}
+
+/// What lies around a plan.
+fn alternatives<'a>(all: &'a [Way], best: &Way, wanted: f64) -> Vec<(String, Option<&'a Way>)> {
+    let mut found = vec![
+        ("twice as fast".to_owned(), most_accurate(all, 0.5 * best.seconds)),
+        ("half the error".to_owned(), cheapest(all, 0.5 * wanted)),
+    ];
+    for collision in CollisionKnob::ALL.into_iter().filter(|&other| other != best.collision) {
+        let own: Vec<&Way> = all.iter().filter(|way| way.collision == collision).collect();
+        let best = own.into_iter().filter(|way| way.band[1] <= wanted);
+        let best = best.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        found.push((format!("with {}", collision.words()), best));
+    }
+    found
+}
+
+/// What a plan rests on, a line each.
+fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, CaseError> {
+    match &facts.limit {
+        Limit::Grains { drag, because, .. } => {
+            let mut lines = vec![format!(
+                "drag over Stokes' drag about {drag:.3}: that of {because}; the error grows with it"
+            )];
+            lines.extend(support::of_grains(
+                models,
+                best.collision,
+                best.resolution,
+                best.tau,
+                *drag,
+            )?);
+            let reynolds =
+                facts.si_velocity.map(|u| u * best.resolution * best.si_dx / facts.si_viscosity);
+            lines.extend(support::of_reynolds(reynolds));
+            Ok(lines)
+        }
+        Limit::Plates { .. } => Ok(support::of_walls(models, best.collision)),
+    }
+}
+
+/// Two digits that count.
+fn percent(value: f64) -> String {
+    match 100.0 * value {
+        percent if percent < 0.001 => "< 0.001 %".to_owned(),
+        percent if percent < 0.0995 => format!("{percent:.3} %"),
+        percent if percent < 0.995 => format!("{percent:.2} %"),
+        percent if percent < 9.95 => format!("{percent:.1} %"),
+        percent => format!("{percent:.0} %"),
+    }
+}
+
+fn words(way: &Way) -> String {
+    let [nx, ny, nz] = way.cells;
+    format!(
+        "{nx} x {ny} x {nz} cells ({:.1} across), tau {}, {}, engine {}",
+        way.resolution,
+        way.tau,
+        way.collision.words(),
+        way.engine
+    )
+}
+
+fn to_json(way: &Way) -> Value {
+    json!({
+        "cells": way.cells, "dx_m": way.si_dx, "resolution": way.resolution, "tau": way.tau,
+        "collision": way.collision.word(), "engine": way.engine, "lattice_velocity": way.velocity,
+        "steps": way.steps, "error": way.error, "band": way.band, "seconds": way.seconds,
+    })
+}
+
+fn print(
+    scene: &Scene,
+    facts: &Facts,
+    wanted: f64,
+    now: Option<&Way>,
+    best: &Way,
+    alternatives: &[(String, Option<&Way>)],
+    evidence: &[String],
+) {
+    if !scene.title.is_empty() {
+        say(&format!("{}\n", scene.title));
+    }
+    let across = match facts.limit {
+        Limit::Grains { .. } => "cells across a grain",
+        Limit::Plates { .. } => "cells between walls",
+    };
+    say(&format!(
+        "  {:<21}{across:>21}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
+        "", "tau", "collision", "engine", "error", "95 % lie within", "time"
+    ));
+    let line = |what: &str, way: Option<&Way>| match way {
+        Some(way) => say(&format!(
+            "  {what:<21}{:>21.1}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
+            way.resolution,
+            way.tau,
+            way.collision.words(),
+            way.engine,
+            percent(way.error),
+            format!("{} to {}", percent(way.band[0]), percent(way.band[1])),
+            duration(way.seconds)
+        )),
+        None => say(&format!("  {what:<21}none within the evidence")),
+    };
+    line("as it is", now);
+    line(&format!("plan for {}", percent(wanted)), Some(best));
+    for (what, way) in alternatives {
+        line(what, *way);
+    }
+    let [nx, ny, nz] = best.cells;
+    say(&format!(
+        "\nthe plan: dx = {:.4e} m, {nx} x {ny} x {nz} cells, tau = {}",
+        best.si_dx, best.tau
+    ));
+    say(match facts.limit {
+        Limit::Grains { .. } => {
+            "error: of the settling velocity, or of the flow that a given force drives; times are upper limits"
+        }
+        Limit::Plates { .. } => "error: of the profile (relative L2); times are upper limits",
+    });
+    say("\nthe evidence");
+    for line in evidence {
+        say(&format!("  {line}"));
+    }
+}
+
+/// Writes the planned scene; a file that is there stays.
+fn write_scene(
+    scene: &Scene,
+    request: &PlanRequest,
+    best: &Way,
+    file: &Path,
+) -> Result<(), CommandError> {
+    let failed = |error: String| CommandError::Write { path: file.display().to_string(), error };
+    let folder = request.scene.parent().unwrap_or(Path::new(""));
+    let comment = format!(
+        "Planned by psmrt plan for an error of {}: predicted {} ({} to {}).",
+        percent(request.error.0),
+        percent(best.error),
+        percent(best.band[0]),
+        percent(best.band[1])
+    );
+    let text = text(scene, folder, best, &comment).map_err(|error| failed(error.to_string()))?;
+    let name = file.display().to_string();
+    // A plan that cannot be run is not written.
+    Scene::from_bytes(
+        &name,
+        text.clone().into_bytes(),
+        file.parent().unwrap_or(Path::new("")),
+        &[],
+    )?;
+    let mut out =
+        OpenOptions::new().write(true).create_new(true).open(file).map_err(|error| match error
+            .kind()
+        {
+            std::io::ErrorKind::AlreadyExists => CommandError::Usage(format!(
+                "{name} is there already and stays: give --write another name, or remove it"
+            )),
+            _ => failed(error.to_string()),
+        })?;
+    out.write_all(text.as_bytes()).map_err(|error| failed(error.to_string()))?;
+    if !request.json {
+        say(&format!("\nwritten to {name}"));
+    }
+    Ok(())
+}

@@ -1,0 +1,79 @@
+//! Makes runs: on either engine, until the end or until the guard stops them.
+
+use std::sync::Arc;
+
+use psmrt_reference::coupling::{CoupledStop, CouplingError};
+use psmrt_reference::domain::{Domain, Faces};
+use psmrt_reference::grains::setup::GrainError;
+use psmrt_reference::guard::{GuardSettings, Symptom};
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::setup::Setup;
+
+use super::{LabError, Line};
+use crate::cases::EngineName;
+use crate::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
+use crate::kernel::Gpu;
+use crate::scene::FreePart;
+
+/// Where runs are made.
+pub struct Lab {
+    /// The device, if there is one.
+    pub gpu: Option<Arc<Gpu>>,
+}
+
+/// The guard of the maps. It looks as often as that of scenes, but lets the fluid be as fast as one cell
+/// per step: a run that only exceeds the 0.5 of scenes is not broken yet, and some live on.
+const GUARD: GuardSettings = GuardSettings { interval: 16, max_speed: 1.0 };
+
+impl Lab {
+    /// The set-up of a line: a box with its collision.
+    pub fn setup(line: &Line, cells: [usize; 3], faces: Faces) -> Result<Setup, LabError> {
+        let domain = Domain::new(cells, faces)?;
+        let setup = Setup::fluid(domain, line.model.collision(line.tau)?);
+        Ok(Setup { guard: GUARD, ..setup })
+    }
+
+    /// The set-up at its start on the engine of the line.
+    pub fn engine(
+        &self,
+        line: &Line,
+        setup: &Setup,
+        free: Option<&FreePart>,
+        state: impl Fn(Vec3) -> (f64, Vec3),
+    ) -> Result<Box<dyn Engine>, LabError> {
+        match line.engine {
+            EngineName::Reference => {
+                Ok(Box::new(ReferenceEngine::starting_from(setup, free, state)?))
+            }
+            EngineName::Wgpu => {
+                let gpu = self.gpu.as_ref().ok_or(LabError::NoDevice)?;
+                Ok(Box::new(KernelEngine::starting_from(setup, free, gpu, state)?))
+            }
+        }
+    }
+}
+
+/// Goes on to step `end`. Errors with [`LabError::Stopped`] if the guard stops it or its grains cannot be
+/// moved, and otherwise if the set-up is refused or the device fails.
+pub(super) fn go_on(engine: &mut dyn Engine, end: u64) -> Result<(), LabError> {
+    let left = end.saturating_sub(engine.steps());
+    match engine.step(left).and_then(|()| engine.look()) {
+        Ok(()) => Ok(()),
+        Err(EngineStop::Broken(CoupledStop::Fluid(stop))) => {
+            let how = match stop.symptom {
+                Symptom::NotFinite => "not_finite",
+                Symptom::NoDensity(_) => "no_density",
+                Symptom::TooFast(_) => "too_fast",
+                Symptom::MeanDensity(_) => "mean_density",
+            };
+            Err(LabError::Stopped { steps: stop.step, how })
+        }
+        Err(EngineStop::Broken(CoupledStop::Grains(error @ GrainError::Substep(_)))) => {
+            Err(LabError::Oracle(CouplingError::Grains(error)))
+        }
+        Err(EngineStop::Broken(CoupledStop::Grains(_))) => {
+            Err(LabError::Stopped { steps: engine.steps(), how: "grains" })
+        }
+        Err(error) => Err(error.into()),
+    }
+}

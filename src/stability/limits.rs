@@ -1,0 +1,147 @@
+//! What the maps say in a line each: how fast a flow may be. The warnings of `psmrt check` and the report
+//! take it from here.
+
+use psmrt_reference::collision::Collision;
+use psmrt_reference::partial_saturation::Weighting;
+use psmrt_reference::rates::Rates;
+
+use super::{Model, Outcome};
+use crate::cases::{CaseError, Table};
+
+/// The maps that the warnings rest on, as they are committed.
+const SHEAR_LAYER: &str = include_str!("../../golden/stability/shear_layer.csv");
+const BED: &str = include_str!("../../golden/stability/bed_force.csv");
+
+/// Columns that a line of a map has alike.
+const LINE: [&str; 5] = ["engine", "collision", "weight", "variant", "tau"];
+
+/// How far a line goes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frontier {
+    /// Engine, collision, weight and variant, as the map spells them.
+    pub line: [String; 4],
+    /// Relaxation time.
+    pub tau: f64,
+    /// Largest value below which all runs live; `None` if none does.
+    pub lives: Option<f64>,
+    /// Largest value up to which no run is wrong; `None` if the smallest is.
+    pub right: Option<f64>,
+    /// Reynolds number that the run at `lives` has reached, if the map has it.
+    pub reynolds: Option<f64>,
+    /// Smallest value whose run was stopped; `None` if none was.
+    pub stopped: Option<f64>,
+}
+
+/// The frontiers of a map. Errors if it is none.
+pub fn frontiers(map: &Table) -> Result<Vec<Frontier>, CaseError> {
+    let number = |name: &str| {
+        let found = map.columns.iter().position(|column| column == name);
+        found.ok_or_else(|| CaseError::Table(format!("a map of stability has no column {name:?}")))
+    };
+    let line: Vec<usize> = LINE.into_iter().map(number).collect::<Result<_, _>>()?;
+    let [value, outcome, reynolds] = [number("value")?, number("outcome")?, number("reynolds")?];
+    let key = |row: &Vec<String>| -> Vec<String> { line.iter().map(|&i| row[i].clone()).collect() };
+    let mut keys: Vec<Vec<String>> = Vec::new();
+    for row in &map.rows {
+        if !keys.contains(&key(row)) {
+            keys.push(key(row));
+        }
+    }
+    let real = |text: &str| {
+        let wrong = || CaseError::Table(format!("a map of stability holds {text:?}"));
+        text.parse::<f64>().map_err(|_| wrong())
+    };
+    keys.into_iter()
+        .map(|line| {
+            let rows = map.rows.iter().filter(|row| key(row) == line);
+            let mut runs = rows
+                .map(|row| {
+                    let word = &row[outcome];
+                    let wrong = || CaseError::Table(format!("no outcome is called {word:?}"));
+                    let outcome = Outcome::of(word).ok_or_else(wrong)?;
+                    Ok((real(&row[value])?, outcome, row[reynolds].parse().ok()))
+                })
+                .collect::<Result<Vec<(f64, Outcome, Option<f64>)>, CaseError>>()?;
+            runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let alive = || runs.iter().take_while(|run| run.1.lived());
+            let sound = || alive().take_while(|run| run.1 != Outcome::Wrong);
+            let tau = real(&line[4])?;
+            let [engine, collision, weight, variant, _] = <[String; 5]>::try_from(line)
+                .map_err(|_| CaseError::Table("a line has five keys".to_owned()))?;
+            Ok(Frontier {
+                line: [engine, collision, weight, variant],
+                tau,
+                lives: alive().last().map(|run| run.0),
+                right: sound().last().map(|run| run.0),
+                reynolds: alive().last().and_then(|run| run.2),
+                stopped: runs.iter().find(|run| !run.1.lived()).map(|run| run.0),
+            })
+        })
+        .collect()
+}
+
+/// A flow that the warnings compare a scene with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measured {
+    /// A fluid alone: the shear layer.
+    Fluid,
+    /// A dense bed with this weight: the ordered bed; the velocity is the superficial one.
+    Bed(Weighting),
+}
+
+/// How fast a flow may be, cells per step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit {
+    /// Largest velocity that survived.
+    pub lives: f64,
+    /// Largest velocity that was not wrong; `None` if all were, or if accuracy was not judged by
+    /// velocity.
+    pub right: Option<f64>,
+}
+
+impl Measured {
+    /// What the map says of a collision: the smaller of the limits at the measured relaxation times on
+    /// either side. `None` where nothing was measured: rates of one's own, tau beyond the map.
+    pub fn limit(self, collision: &Collision) -> Option<Limit> {
+        self.limit_of(model_of(collision)?, collision.tau())
+    }
+
+    /// The same of a model.
+    pub fn limit_of(self, model: Model, tau: f64) -> Option<Limit> {
+        let (text, weight) = match self {
+            Measured::Fluid => (SHEAR_LAYER, "none"),
+            Measured::Bed(Weighting::NobleTorczynski) => (BED, "NT"),
+            Measured::Bed(Weighting::SolidFraction) => (BED, "eps"),
+        };
+        let all = frontiers(&Table::parse("golden/stability", text).ok()?).ok()?;
+        let mut own: Vec<&Frontier> = all
+            .iter()
+            .filter(|one| one.line[0] == "reference" && one.line[1] == model.word())
+            .filter(|one| one.line[2] == weight)
+            .collect();
+        own.sort_by(|a, b| a.tau.total_cmp(&b.tau));
+        let above = own.iter().position(|one| one.tau >= tau)?;
+        let around = &own[above.saturating_sub(1)..=above];
+        let lives = around.iter().filter_map(|one| one.lives).fold(f64::INFINITY, f64::min);
+        let right = around.iter().map(|one| one.right.unwrap_or(0.0)).fold(f64::INFINITY, f64::min);
+        lives.is_finite().then_some(Limit { lives, right: Some(right).filter(|&u| u > 0.0) })
+    }
+}
+
+/// The model of a collision, if it is one that was mapped.
+fn model_of(collision: &Collision) -> Option<Model> {
+    let rates = match collision {
+        Collision::Srt { .. } => return Some(Model::Srt),
+        Collision::Mrt { rates } => rates,
+    };
+    let tau = collision.tau();
+    // Rates come from relaxation times and back: some round-off apart.
+    let is_near = |other: Rates| {
+        rates.diagonal().iter().zip(other.diagonal()).all(|(a, b)| (a - b).abs() < 1e-9)
+    };
+    let is_model = |model: &Model| match model.collision(tau) {
+        Ok(Collision::Mrt { rates }) => is_near(rates),
+        _ => Rates::srt(tau).is_ok_and(is_near),
+    };
+    Model::ALL.into_iter().find(is_model)
+}

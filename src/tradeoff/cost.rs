@@ -1,0 +1,97 @@
+//! What a cell update costs: engines, collisions and kinds of scene in turn, many times, and the best of
+//! each, so that other work on the machine spoils little.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use super::knobs::{CollisionKnob, Flow, Knobs};
+use crate::cases::{Bench, CaseError, Table};
+use crate::engine::{Engine, KernelEngine, ReferenceEngine};
+use crate::kernel::Gpu;
+
+/// Rounds, and how long one scene runs in each.
+const ROUNDS: usize = 7;
+const SLICE: Duration = Duration::from_millis(150);
+
+/// Names of the columns.
+pub const COLUMNS: [&str; 5] = ["engine", "collision", "scene", "ns_per_cell_update", "machine"];
+
+/// A kind of scene: fluid alone, a bed of held spheres, a grain that moves.
+const SCENES: [(&str, &str, &[&str]); 3] = [
+    ("fluid", "tradeoff/poiseuille.toml", &["domain.dx=4e-5", "domain.size=[1e-3, 1e-3, 1e-3]"]),
+    ("bed", "tradeoff/fcc.toml", &["domain.cells=[48, 24, 24]", "domain.dx=5e-6"]),
+    ("free", "tradeoff/settling.toml", &[]),
+];
+
+/// Which of them a flow is.
+pub fn kind(flow: Flow) -> &'static str {
+    match flow {
+        Flow::Poiseuille => "fluid",
+        Flow::Settling => "free",
+        _ => "bed",
+    }
+}
+
+/// Measures all. Errors if a scene cannot be run.
+pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError> {
+    struct Entry {
+        words: [&'static str; 3],
+        engine: Box<dyn Engine>,
+        cells: f64,
+        best: f64,
+    }
+    let bench = Bench::new(golden, None, |_| {});
+    let mut entries: Vec<Entry> = Vec::new();
+    for (kind, scene, changes) in SCENES {
+        for collision in [CollisionKnob::Srt, CollisionKnob::Dhumieres] {
+            let mut changes: Vec<String> = changes.iter().map(|&text| text.to_owned()).collect();
+            changes.extend(collision.changes());
+            let scene = bench.load(scene, &changes)?;
+            let cells = scene.setup.domain.cell_count() as f64;
+            let mut add = |name, engine: Box<dyn Engine>| {
+                let words = [name, collision.word(), kind];
+                entries.push(Entry { words, engine, cells, best: f64::INFINITY });
+            };
+            add("reference", Box::new(ReferenceEngine::new(&scene)?));
+            if let Some(gpu) = gpu {
+                add("wgpu", Box::new(KernelEngine::new(&scene, gpu, false)?));
+            }
+        }
+    }
+    for round in 0..=ROUNDS {
+        for entry in &mut entries {
+            let (start, first) = (Instant::now(), entry.engine.steps());
+            while start.elapsed() < SLICE {
+                entry.engine.step(4)?;
+                // Only what a device is asked for waits for it.
+                entry.engine.box_means();
+            }
+            let steps = (entry.engine.steps() - first) as f64;
+            let cost = start.elapsed().as_secs_f64() / (steps * entry.cells);
+            // In the first round shaders compile.
+            if round > 0 {
+                entry.best = entry.best.min(cost);
+            }
+        }
+    }
+    let mut table = Table::new(&COLUMNS);
+    for entry in entries {
+        let [engine, collision, scene] = entry.words.map(str::to_owned);
+        let cost = format!("{:.1}", 1e9 * entry.best);
+        table.add(vec![engine, collision, scene, cost, super::machine_words()]);
+    }
+    Ok(table)
+}
+
+/// Seconds per cell update of some knobs, by a table of [`measure`]. Many relaxation times cost the same
+/// with any rates. Errors if the table has no such row.
+pub fn seconds_per_update(costs: &Table, knobs: &Knobs) -> Result<f64, CaseError> {
+    let collision = match knobs.collision {
+        CollisionKnob::Srt => CollisionKnob::Srt,
+        CollisionKnob::Dhumieres | CollisionKnob::Magic => CollisionKnob::Dhumieres,
+    };
+    let wanted =
+        [("engine", &*knobs.engine), ("collision", collision.word()), ("scene", kind(knobs.flow))];
+    Ok(1e-9 * costs.with(&wanted)?.number("ns_per_cell_update")?)
+}

@@ -1,0 +1,96 @@
+//! What one knob alone does: runs beside the run that differs in nothing else and has the default.
+
+use super::knobs::{CollisionKnob, Flow, Knobs, Storage};
+use super::record::Row;
+use crate::cases::Table;
+
+/// A knob, turned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effect {
+    /// Which knob, and to what.
+    pub what: String,
+    /// The flow.
+    pub flow: Flow,
+    /// Errors with it and with the default, in the order of the rows.
+    pub pairs: Vec<[f64; 2]>,
+}
+
+impl Effect {
+    /// The middle of the ratios of the errors' sizes.
+    pub fn median_ratio(&self) -> f64 {
+        let mut ratios: Vec<f64> = self.pairs.iter().map(|[a, b]| (a / b).abs()).collect();
+        ratios.sort_by(f64::total_cmp);
+        let half = ratios.len() / 2;
+        let middle = [ratios.get(half), ratios.get(ratios.len().saturating_sub(half + 1))];
+        middle.iter().map(|value| value.copied().unwrap_or(f64::NAN)).sum::<f64>() / 2.0
+    }
+
+    /// The largest difference of the errors.
+    pub fn largest_difference(&self) -> f64 {
+        self.pairs.iter().map(|[a, b]| (a - b).abs()).fold(0.0, f64::max)
+    }
+}
+
+/// The effects of all knobs in a sweep, flow by flow.
+pub fn effects(rows: &[Row]) -> Vec<Effect> {
+    let mut effects: Vec<Effect> = Vec::new();
+    for row in rows {
+        let Some((what, default)) = turned(&row.knobs) else { continue };
+        let partner = rows.iter().find(|other| other.knobs == default);
+        let (Some(error), Some(usual)) = (row.error, partner.and_then(|other| other.error)) else {
+            continue;
+        };
+        let flow = row.knobs.flow;
+        match effects.iter_mut().find(|effect| effect.flow == flow && effect.what == what) {
+            Some(effect) => effect.pairs.push([error, usual]),
+            None => effects.push(Effect { what, flow, pairs: vec![[error, usual]] }),
+        }
+    }
+    effects
+}
+
+/// The one knob that is not at its default, and the knobs with it at its default; the storage of the
+/// kernel is its own default. `None` if none is turned.
+fn turned(knobs: &Knobs) -> Option<(String, Knobs)> {
+    let mut default = knobs.clone();
+    let what = if knobs.engine == "wgpu" {
+        default.engine = "reference".to_owned();
+        default.storage = Storage::F64;
+        "engine wgpu (f32 shifted)".to_owned()
+    } else if knobs.storage != Storage::F64 {
+        default.storage = Storage::F64;
+        let speed = if knobs.lattice_velocity < 5e-4 { "u < 5e-4" } else { "u >= 1e-3" };
+        format!("storage {}, {speed}", knobs.storage.word())
+    } else if knobs.weight != "NT" {
+        default.weight = "NT".to_owned();
+        "weight B = eps".to_owned()
+    } else if knobs.operator != "bounce_back" {
+        default.operator = "bounce_back".to_owned();
+        "operator superposition".to_owned()
+    } else if knobs.samples != 0 {
+        default.samples = 0;
+        format!("coverage sampled {0} x {0} x {0}", knobs.samples)
+    } else if knobs.collision != CollisionKnob::Dhumieres {
+        default.collision = CollisionKnob::Dhumieres;
+        format!("collision {}", knobs.collision.words())
+    } else {
+        return None;
+    };
+    Some((what, default))
+}
+
+/// The effects as rows.
+pub fn to_table(effects: &[Effect]) -> Table {
+    let columns = ["case", "knob", "pairs", "median_ratio_of_errors", "largest_difference"];
+    let mut table = Table::new(&columns);
+    for effect in effects {
+        table.add(vec![
+            effect.flow.word().to_owned(),
+            effect.what.clone(),
+            effect.pairs.len().to_string(),
+            format!("{:.3}", effect.median_ratio()),
+            format!("{:.2e}", effect.largest_difference()),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,156 @@
+//! The runs that error models rest on: the committed sweep, and the older study of arrays.
+
+use super::knobs::{CollisionKnob, Flow, Storage};
+use super::record::Row;
+use crate::cases::{CaseError, Table};
+
+/// The committed rows, part of the program so that `psmrt plan` works anywhere.
+const SWEEP: &str = include_str!("../../golden/tradeoff/sweep.csv");
+const STUDY: &str = include_str!("../../golden/sphere_arrays/study.csv");
+
+/// The grids that count: coarser ones have more than one error, and finer ones cost too much to be many.
+const LEAST_CELLS: f64 = 3.9;
+
+/// Below this relaxation time what remains beside the leak counts most, and has either sign: at 0.55 the
+/// error of dense beds is half of what the models would say.
+pub const LEAST_TAU: f64 = 0.6;
+
+/// Reynolds number above which inertia shows in the truth itself.
+const MOST_REYNOLDS: f64 = 0.06;
+
+/// A run with grains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GrainPoint {
+    /// The geometry: points of one geometry share its accidents.
+    pub geometry: String,
+    /// Where it stands.
+    pub source: &'static str,
+    /// Collision of the fluid.
+    pub collision: CollisionKnob,
+    /// Cells per diameter.
+    pub cells: f64,
+    /// Relaxation time.
+    pub tau: f64,
+    /// Exact drag over Stokes' drag.
+    pub drag: f64,
+    /// Relative error of the velocity under a given force.
+    pub error: f64,
+}
+
+/// A run between plates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WallPoint {
+    /// Collision of the fluid.
+    pub collision: CollisionKnob,
+    /// Cells from plate to plate.
+    pub cells: f64,
+    /// Relaxation time.
+    pub tau: f64,
+    /// Largest velocity, cells per step.
+    pub velocity: f64,
+    /// Relative L2 error of the profile.
+    pub error: f64,
+}
+
+/// The committed sweep.
+pub fn committed_sweep() -> Result<Vec<Row>, CaseError> {
+    Row::of_table(&Table::parse("golden/tradeoff/sweep.csv", SWEEP)?)
+}
+
+/// Whether a row has all defaults but collision, grid and relaxation time: weight, operator, exact solid
+/// fractions, double precision, slow flow.
+fn is_plain(row: &Row) -> bool {
+    let knobs = &row.knobs;
+    let nu = (knobs.tau - 0.5) / 3.0;
+    let reynolds = knobs.cells_per_diameter().map_or(0.0, |d| knobs.lattice_velocity * d / nu);
+    knobs.weight == "NT"
+        && knobs.operator == "bounce_back"
+        && knobs.samples == 0
+        && knobs.storage == Storage::F64
+        && reynolds < MOST_REYNOLDS
+}
+
+/// The point of a row with grains, if it has an error; whether it is within the range of the models is
+/// not asked.
+pub fn grain_point(row: &Row) -> Option<GrainPoint> {
+    let knobs = &row.knobs;
+    let lattice = knobs.flow.lattice().map_or(knobs.flow.word(), |(name, _)| name);
+    Some(GrainPoint {
+        geometry: format!("{lattice} {}", knobs.geometry),
+        source: "golden/tradeoff/sweep.csv",
+        collision: knobs.collision,
+        cells: knobs.cells_per_diameter()?,
+        tau: knobs.tau,
+        drag: row.drag,
+        error: row.error?,
+    })
+}
+
+/// The point of a row between plates, if it has an error.
+pub fn wall_point(row: &Row) -> Option<WallPoint> {
+    let Row { knobs, error, .. } = row;
+    (knobs.flow == Flow::Poiseuille).then_some(WallPoint {
+        collision: knobs.collision,
+        cells: f64::from(knobs.cells),
+        tau: knobs.tau,
+        velocity: knobs.lattice_velocity,
+        error: (*error)?,
+    })
+}
+
+/// The points with grains that models are fitted to.
+pub fn grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, CaseError> {
+    let mut points: Vec<_> =
+        sweep.iter().filter(|row| is_plain(row)).filter_map(grain_point).collect();
+    for point in study()? {
+        // Some configurations are in both.
+        let same = |other: &GrainPoint| {
+            other.geometry == point.geometry
+                && other.collision == point.collision
+                && other.tau == point.tau
+                && (other.cells - point.cells).abs() < 1e-3
+        };
+        if !points.iter().any(same) {
+            points.push(point);
+        }
+    }
+    points.retain(|point| point.tau >= LEAST_TAU && point.cells >= LEAST_CELLS);
+    Ok(points)
+}
+
+/// The points between plates that models are fitted to.
+pub fn wall_points(sweep: &[Row]) -> Vec<WallPoint> {
+    sweep.iter().filter(|row| is_plain(row)).filter_map(wall_point).collect()
+}
+
+/// The plain rows of the study of arrays.
+fn study() -> Result<Vec<GrainPoint>, CaseError> {
+    let table = Table::parse("golden/sphere_arrays/study.csv", STUDY)?;
+    let plain = [("weight", "NT"), ("operator", "bounce_back"), ("shift", "quarter")];
+    let table = table.with(&plain)?;
+    let mut points = Vec::new();
+    for i in 0..table.rows.len() {
+        let row = Table { columns: table.columns.clone(), rows: vec![table.rows[i].clone()] };
+        // A run that broke has no error.
+        let Ok(drag_error) = row.number("relative_error") else { continue };
+        let word = row.values("collision")?.pop().unwrap_or_default();
+        let collision = CollisionKnob::from_word(&word)
+            .ok_or_else(|| CaseError::Table(format!("collision {word:?} of study.csv")))?;
+        let lattice = row.values("lattice")?.pop().unwrap_or_default();
+        let fraction = row.values("solid_fraction")?.pop().unwrap_or_default();
+        if row.number("Re")? > MOST_REYNOLDS {
+            continue;
+        }
+        points.push(GrainPoint {
+            geometry: format!("{lattice} {fraction}"),
+            source: "golden/sphere_arrays/study.csv",
+            collision,
+            cells: row.number("cells_per_diameter")?,
+            tau: row.number("tau")?,
+            drag: row.number("K_exact")?,
+            // K/K_exact = 1 + e, the velocity goes with 1/K.
+            error: 1.0 / (1.0 + drag_error) - 1.0,
+        });
+    }
+    Ok(points)
+}

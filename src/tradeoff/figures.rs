@@ -1,0 +1,194 @@
+//! The figures: error against time with the front drawn, one a flow; predictions beside what was measured.
+
+use psmrt_report::{Axis, Figure, Series, Style};
+
+use super::cost::seconds_per_update;
+use super::front::front;
+use super::knobs::{CollisionKnob, Flow, Storage};
+use super::record::Row;
+use super::trial::Trial;
+use crate::cases::{CaseError, Table};
+
+/// Errors below this are drawn at it: a log axis has no zero.
+const FLOOR: f64 = 1e-8;
+
+/// A run on the plane of cost and error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Placed<'a> {
+    /// The run.
+    pub row: &'a Row,
+    /// Seconds: cell updates times the best measured cost of one.
+    pub seconds: f64,
+    /// Size of the error.
+    pub error: f64,
+}
+
+/// The runs of a flow that have an error and a cost.
+pub fn placed<'a>(flow: Flow, rows: &'a [Row], costs: &Table) -> Vec<Placed<'a>> {
+    let own = rows.iter().filter(|row| row.knobs.flow == flow);
+    own.filter_map(|row| {
+        let cost = seconds_per_update(costs, &row.knobs).ok()?;
+        let seconds = row.cell_updates() as f64 * cost;
+        Some(Placed { row, seconds, error: row.error?.abs().max(FLOOR) })
+    })
+    .collect()
+}
+
+/// Whether a run's models converge with the grid. The others (`B = eps`, few sample points, superposition)
+/// can come out right at one relaxation time, where two errors cancel, and are far off at the next.
+fn converges(row: &Row) -> bool {
+    row.knobs.weight == "NT" && row.knobs.operator == "bounce_back" && row.knobs.samples == 0
+}
+
+/// The runs of the front among them, the cheapest first: of all, or of those whose models converge. What
+/// psmrt cannot do (storage in fewer digits is tried on the oracle only) has no place on it.
+pub fn on_front<'a, 'b>(placed: &'b [Placed<'a>], all: bool) -> Vec<&'b Placed<'a>> {
+    let offered: Vec<_> = placed
+        .iter()
+        .filter(|p| matches!(p.row.knobs.storage, Storage::F64 | Storage::F32Shifted))
+        .filter(|p| all || converges(p.row))
+        .collect();
+    let points: Vec<_> = offered.iter().map(|p| (p.seconds, p.error)).collect();
+    front(&points).into_iter().map(|i| offered[i]).collect()
+}
+
+/// Which series of a figure a run belongs to.
+fn series_of(row: &Row) -> &'static str {
+    let knobs = &row.knobs;
+    match (knobs.storage, &*knobs.engine) {
+        (Storage::F32, _) => "f32 unshifted (storage only)",
+        (Storage::F16Shifted, _) => "f16 shifted (storage only)",
+        (_, "wgpu") => "kernel, f32 shifted",
+        _ if knobs.weight == "eps" => "weight B = eps",
+        _ if knobs.operator == "superposition" => "superposition",
+        _ if knobs.samples > 0 => "sampled coverage",
+        _ => match knobs.collision {
+            CollisionKnob::Srt => "SRT",
+            CollisionKnob::Dhumieres => "MRT d'Humieres (default)",
+            CollisionKnob::Magic => "MRT magic 3/16",
+        },
+    }
+}
+
+const SERIES: [&str; 9] = [
+    "MRT d'Humieres (default)",
+    "SRT",
+    "MRT magic 3/16",
+    "weight B = eps",
+    "superposition",
+    "sampled coverage",
+    "kernel, f32 shifted",
+    "f32 unshifted (storage only)",
+    "f16 shifted (storage only)",
+];
+
+/// Title of a flow and what its error is.
+pub fn title(flow: Flow) -> (&'static str, &'static str) {
+    match flow {
+        Flow::Poiseuille => {
+            ("Poiseuille flow between plates, 8 to 24 cells", "error of the profile (relative L2)")
+        }
+        Flow::Sc => ("Simple cubic array, solid fraction 0.2", "error of the velocity"),
+        Flow::Bcc => ("Body-centred cubic array, solid fraction 0.3", "error of the velocity"),
+        Flow::Fcc => ("Face-centred cubic array, solid fraction 0.45", "error of the velocity"),
+        Flow::SphereDrag => ("A sphere in a duct 5 diameters wide", "error of the velocity"),
+        Flow::Settling => ("A grain settles in a shaft 4 diameters wide", "error of the velocity"),
+        Flow::Seepage => ("Seepage through a bed as dense as sand (0.6)", "error of the velocity"),
+    }
+}
+
+/// Error against time for a flow; `None` without a run to draw.
+pub fn error_against_time(flow: Flow, rows: &[Row], costs: &Table) -> Option<Figure> {
+    let placed = placed(flow, rows, costs);
+    if placed.is_empty() {
+        return None;
+    }
+    let (title, error) = title(flow);
+    let mut figure = Figure::new(
+        format!("{title}: error against time"),
+        Axis::log("time to the steady flow (s): cell updates times the cost of one"),
+        Axis::log(error),
+    )
+    .size(800, 600);
+    for label in SERIES {
+        let own = placed.iter().filter(|p| series_of(p.row) == label);
+        let points: Vec<_> = own.map(|p| (p.seconds, p.error)).collect();
+        if !points.is_empty() {
+            figure = figure.with(Series::points(label, points));
+        }
+    }
+    let points = |all| on_front(&placed, all).iter().map(|p| (p.seconds, p.error)).collect();
+    let (best, of_all): (Vec<_>, Vec<_>) = (points(false), points(true));
+    if best.len() > 1 {
+        let label = "front: none that converges is faster and better";
+        figure = figure.with(Series::dashed(label, steps(&best)).with_colour(0));
+    }
+    if of_all.len() > 1 && of_all != best {
+        let label = "front of all, errors that cancel included";
+        figure = figure.with(Series::new(label, Style::Reference, steps(&of_all)));
+    }
+    Some(figure.note(
+        "each point is a run: more cells and smaller tau to the lower right; sweep.csv has them all",
+    ))
+}
+
+/// A front as a staircase: until the next better point nothing better is to be had.
+fn steps(best: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let corners = best.windows(2).flat_map(|pair| [pair[0], (pair[1].0, pair[0].1)]);
+    corners.chain(best.last().copied()).collect()
+}
+
+/// Measured against predicted errors of what was kept back.
+pub fn held_back(trials: &[Trial]) -> Option<Figure> {
+    let shown = |trial: &&Trial| trial.measured.abs() > 0.0 && trial.predicted > 0.0;
+    let shown: Vec<&Trial> = trials.iter().filter(shown).collect();
+    let values = || shown.iter().flat_map(|trial| [trial.predicted, trial.measured.abs()]);
+    let low = 0.7 * values().fold(f64::INFINITY, f64::min);
+    let high = 1.5 * values().fold(0.0, f64::max);
+    if shown.is_empty() {
+        return None;
+    }
+    let mut figure = Figure::new(
+        "Configurations kept back from the fits: measured against predicted error",
+        Axis::log("predicted error").range(low, high),
+        Axis::log("measured error").range(low / 1.5, high * 1.5),
+    );
+    for (colour, collision) in CollisionKnob::ALL.into_iter().enumerate() {
+        let own = shown.iter().filter(|trial| trial.row.knobs.collision == collision);
+        let points: Vec<_> = own.map(|t| (t.predicted, t.measured.abs())).collect();
+        if !points.is_empty() {
+            figure = figure.with(Series::points(collision.words(), points).with_colour(colour));
+        }
+    }
+    let line = |factor: f64| vec![(low, factor * low), (high, factor * high)];
+    let hits = trials.iter().filter(|trial| trial.hits()).count();
+    Some(
+        figure
+            .with(Series::line("as predicted", line(1.0)))
+            .with(Series::dashed("a factor of 1.5 off", line(1.5)))
+            .with(Series::dashed("a factor of 1.5 off", line(1.0 / 1.5)))
+            .note(format!("{hits} of {} lie within their own band", trials.len())),
+    )
+}
+
+/// Ten Cate's sphere: error of the largest velocity against time, from the committed falls.
+pub fn ten_cate(study: &Table, costs: &Table) -> Result<Figure, CaseError> {
+    let wanted = [("engine", "reference"), ("collision", "MRT_dHumieres"), ("scene", "free")];
+    let cost = 1e-9 * costs.with(&wanted)?.number("ns_per_cell_update")?;
+    let mut figure = Figure::new(
+        "Ten Cate's settling sphere: error against time",
+        Axis::log("time of the fall (s): cell updates times the cost of one"),
+        Axis::linear("error of the largest velocity").range(-0.04, 0.04),
+    );
+    for case in study.values("case")? {
+        let own = study.with(&[("case", &case)])?;
+        let (cells, steps) = (own.numbers("cells")?, own.numbers("steps")?);
+        let seconds = cells.iter().zip(&steps).map(|(cells, steps)| cells * steps * cost);
+        let points = seconds.zip(own.numbers("error_of_largest")?).collect();
+        let tau = own.values("tau")?.join(", ");
+        figure = figure.with(Series::line_points(format!("{case}, tau {tau}"), points));
+    }
+    Ok(figure.note(
+        "8, 12 (and 16) cells per diameter; the experiment itself is good to 2 %: no front is drawn",
+    ))
+}

@@ -1,0 +1,140 @@
+//! One run: its error against the truth, and what it cost.
+
+use std::f64::consts::PI;
+use std::path::Path;
+use std::time::Instant;
+
+use psmrt_reference::lattice::viscosity;
+
+use super::knobs::{Flow, Knobs, Storage};
+use super::record::Row;
+use super::setting::{Literature, Setting};
+use super::storage::RoundedEngine;
+use crate::cases::{Bench, CaseError, Finished};
+use crate::engine::Engine;
+use crate::exact::Comparison;
+use crate::kernel::Gpu;
+use crate::output::records::profile_rows;
+use crate::run::{End, RunError};
+use std::sync::Arc;
+
+/// Bytes that an engine keeps per cell for populations: two copies of 19 of 8 or 4 bytes.
+const BYTES: [(&str, f64); 2] = [("reference", 2.0 * 19.0 * 8.0), ("wgpu", 2.0 * 19.0 * 4.0)];
+
+/// Runs settings on the engines at hand.
+pub struct Runner {
+    oracle: Bench,
+    kernel: Option<Bench>,
+    literature: Literature,
+    machine: String,
+}
+
+impl Runner {
+    /// With the files of the folder `golden`, and the kernel on the device `gpu` if there is one.
+    pub fn new(golden: &Path, gpu: Option<Arc<Gpu>>) -> Result<Self, CaseError> {
+        let oracle = Bench::new(golden, None, |_| {});
+        let literature = Literature {
+            arrays: oracle.literature("sphere_arrays", "literature.csv")?,
+            shafts: oracle.literature("stokes_settling", "literature.csv")?,
+            ducts: oracle.literature("tradeoff", "literature.csv")?,
+        };
+        let kernel = gpu.map(|gpu| Bench::new(golden, Some(gpu), |_| {}));
+        Ok(Runner { oracle, kernel, literature, machine: super::machine_words() })
+    }
+
+    /// Whether it can run these knobs here.
+    pub fn can(&self, knobs: &Knobs) -> bool {
+        knobs.engine == "reference" || self.kernel.is_some()
+    }
+
+    /// Makes one run. A run that breaks or does not become steady is a row too, without an error.
+    pub fn measure(&mut self, knobs: &Knobs) -> Result<Row, CaseError> {
+        let Setting { scene, changes, drag } = Setting::new(knobs, &self.literature)?;
+        let on_kernel = knobs.engine == "wgpu";
+        let bench = match &mut self.kernel {
+            Some(kernel) if on_kernel => kernel,
+            None if on_kernel => {
+                return Err(CaseError::Table("there is no adapter for engine wgpu".to_owned()));
+            }
+            _ => &mut self.oracle,
+        };
+        let emulated = matches!(knobs.storage, Storage::F32 | Storage::F16Shifted);
+        let start = Instant::now();
+        let ended = if emulated {
+            let scene = bench.load(&scene, &changes)?;
+            let engine = RoundedEngine::new(&scene, knobs.storage)
+                .map_err(|error| CaseError::Table(error.to_string()))?;
+            let engine: Box<dyn Engine> = Box::new(engine);
+            bench.run_on(scene, engine)
+        } else {
+            bench.run(&scene, &changes)
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        let mut row = Row {
+            knobs: knobs.clone(),
+            drag,
+            error: None,
+            end: String::new(),
+            cells: 0,
+            steps: 0,
+            seconds,
+            mebibytes: 0.0,
+            machine: self.machine.clone(),
+        };
+        let (finished, end) = match ended {
+            Ok(ended) => ended,
+            Err(CaseError::Run(RunError::Stopped(stopped))) => {
+                let text = stopped.to_string();
+                let first = text.lines().next().unwrap_or("").replace([',', '"'], ";");
+                row.end = format!("broken: {first}");
+                return Ok(row);
+            }
+            Err(error) => return Err(error),
+        };
+        // A grain in a shaft is stopped after a time that its flow needs; all else must be steady.
+        let steady = end == End::Steady || knobs.flow == Flow::Settling;
+        row.end = if steady { "steady" } else { "limit" }.to_owned();
+        row.cells = finished.scene.setup.domain.cell_count() as u64;
+        row.steps = finished.engine.steps();
+        let bytes = BYTES.iter().find(|(engine, _)| *engine == knobs.engine);
+        row.mebibytes = row.cells as f64 * bytes.map_or(f64::NAN, |(_, b)| *b) / f64::from(1 << 20);
+        if steady || emulated {
+            row.error = Some(error(knobs, drag, &finished)?).filter(|error| error.is_finite());
+        }
+        Ok(row)
+    }
+}
+
+/// The error: between plates that of the profile (relative L2), in arrays and ducts that of the
+/// superficial velocity under a given force (which is that of the permeability), of a grain that of its
+/// settling velocity; relative, signed but between plates.
+fn error(knobs: &Knobs, drag: f64, run: &Finished) -> Result<f64, CaseError> {
+    let setup = &run.scene.setup;
+    let missing = |what: &str| CaseError::Table(format!("{}: {what}", knobs.flow.word()));
+    match knobs.flow {
+        Flow::Poiseuille => {
+            let exact = run.scene.exact.as_ref().ok_or_else(|| missing("no exact solution"))?;
+            let middle = setup.domain.cells().map(|n| n / 2);
+            let profile = profile_rows(&run.scene, run.engine.as_ref(), exact.across, middle);
+            let along: Vec<f64> = profile.iter().map(|row| row[2 + exact.along]).collect();
+            Ok(Comparison::new(exact, &along).relative_l2)
+        }
+        Flow::Settling => {
+            let free = run.engine.free_grains().ok_or_else(|| missing("no free grain"))?;
+            let grain = free.grains().first().ok_or_else(|| missing("no grain"))?;
+            // The knob is Stokes' velocity; walls divide it by the drag.
+            Ok(-grain.velocity.z / knobs.lattice_velocity * drag - 1.0)
+        }
+        Flow::Sc | Flow::Bcc | Flow::Fcc | Flow::Seepage | Flow::SphereDrag => {
+            let d = knobs.cells_per_diameter().ok_or_else(|| missing("no diameter"))?;
+            let count = knobs.flow.lattice().map_or(1, |(_, count)| count);
+            let force = setup.body_force.map_or(0.0, |force| force.x);
+            let means = run.engine.box_means();
+            let velocity = means.mass_flux.x / means.density;
+            // U = G V/(n 6π ν a K)
+            let stokes = f64::from(count) * 3.0 * PI * viscosity(knobs.tau) * d;
+            let exact = force * f64::from(knobs.cells).powi(3) / (stokes * drag);
+            Ok(velocity / exact - 1.0)
+        }
+    }
+}

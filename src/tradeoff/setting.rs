@@ -1,0 +1,189 @@
+//! Knobs become a scene of `golden/tradeoff/` with changes, and the exact answer beside it.
+
+use std::f64::consts::PI;
+
+use psmrt_reference::lattice::viscosity;
+
+use super::knobs::{Flow, Knobs, Storage};
+use crate::cases::{CaseError, Table};
+
+/// Viscosity of all scenes, m2/s.
+const SI_VISCOSITY: f64 = 1e-6;
+
+/// Edge of a cell of the arrays, m: a power of two, so that centres lie on mirror planes to the last bit.
+const SI_DX: f64 = 1.0 / 65536.0;
+
+/// Diameter of the grain that settles, m, and its density over that of the fluid.
+const SI_GRAIN: f64 = 5e-5;
+const DENSITY_RATIO: f64 = 2.0;
+
+/// Height of the shaft in diameters.
+const SHAFT_HEIGHT: u32 = 8;
+
+/// A run that can be made.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// The scene, relative to the folder `golden`.
+    pub scene: String,
+    /// Its changes, as `--set` takes them.
+    pub changes: Vec<String>,
+    /// Drag over Stokes' drag by the literature; 1 between plates.
+    pub drag: f64,
+}
+
+/// The literature that the settings need: files of the folder `golden`, as tables.
+#[derive(Clone, Debug)]
+pub struct Literature {
+    /// `sphere_arrays/literature.csv`.
+    pub arrays: Table,
+    /// `stokes_settling/literature.csv`.
+    pub shafts: Table,
+    /// `tradeoff/literature.csv`.
+    pub ducts: Table,
+}
+
+impl Setting {
+    /// The scene and the truth for some knobs. Errors if the literature does not know the geometry.
+    pub fn new(knobs: &Knobs, literature: &Literature) -> Result<Self, CaseError> {
+        let (flow, drag) = match knobs.flow {
+            Flow::Poiseuille => (poiseuille(knobs), 1.0),
+            Flow::Settling => {
+                let wanted = [("section", "square"), ("a_over_halfwidth", &*knobs.geometry)];
+                let drag =
+                    literature.shafts.with(&wanted)?.number("K1_translating_in_still_fluid")?;
+                (settling(knobs)?, drag)
+            }
+            Flow::SphereDrag => {
+                let own = literature.ducts.with(&[("solid_fraction", &knobs.geometry)])?;
+                let drag = own.number("K")?;
+                (array(knobs, drag)?, drag)
+            }
+            Flow::Sc | Flow::Bcc | Flow::Fcc | Flow::Seepage => {
+                let lattice = knobs.flow.lattice().map_or("", |(name, _)| name);
+                let wanted = [("lattice", lattice), ("solid_fraction_c", &*knobs.geometry)];
+                let drag = literature.arrays.with(&wanted)?.number("K_computed")?;
+                (array(knobs, drag)?, drag)
+            }
+        };
+        let (scene, mut changes) = flow;
+        changes.push(format!("time.tau={}", knobs.tau));
+        changes.extend(knobs.collision.changes());
+        if knobs.flow != Flow::Poiseuille {
+            let weight = if knobs.weight == "eps" { "solid_fraction" } else { "noble_torczynski" };
+            changes.push(format!("solid.weighting=\"{weight}\""));
+            changes.push(format!("solid.operator=\"{}\"", knobs.operator));
+            if knobs.samples > 0 {
+                changes.push("solid.coverage=\"sampled\"".to_owned());
+                changes.push(format!("solid.samples={}", knobs.samples));
+            }
+        }
+        Ok(Setting { scene: format!("tradeoff/{scene}.toml"), changes, drag })
+    }
+}
+
+/// Time step for an edge of a cell, s.
+fn si_dt(knobs: &Knobs, si_dx: f64) -> f64 {
+    viscosity(knobs.tau) * si_dx * si_dx / SI_VISCOSITY
+}
+
+fn poiseuille(knobs: &Knobs) -> (&'static str, Vec<String>) {
+    let (n, nu) = (f64::from(knobs.cells), viscosity(knobs.tau));
+    let si_dx = 1e-3 / n;
+    // u = G H²/(8 ν)
+    let force = 8.0 * nu * knobs.lattice_velocity / (n * n);
+    let si_force = force * si_dx / si_dt(knobs, si_dx).powi(2);
+    // The slowest disturbance takes H²/(π² ν) steps to fall to 1/e; rows come every fifth of it.
+    let rows = (0.2 * n * n / (PI * PI * nu)).ceil() + 8.0;
+    let changes = vec![
+        format!("domain.dx={si_dx:e}"),
+        format!("domain.size=[{si_dx:e}, 1e-3, {si_dx:e}]"),
+        format!("body_force.acceleration=[{si_force:e}, 0.0, 0.0]"),
+        format!("records[0].every_steps={rows}"),
+        format!("stop.steps={}", 200.0 * rows),
+        format!("stop.steady.tolerance={:e}", quiet(knobs, 1e-8)),
+    ];
+    ("poiseuille", changes)
+}
+
+/// Relative change from row to row below which a run is steady; single precision has noise above
+/// 1e-6, and coarser storage never becomes quiet: it runs to its limit.
+fn quiet(knobs: &Knobs, wanted: f64) -> f64 {
+    match knobs.storage {
+        Storage::F64 => wanted,
+        Storage::F32Shifted => wanted.max(1e-5),
+        Storage::F32 | Storage::F16Shifted => 1e-9,
+    }
+}
+
+fn array(knobs: &Knobs, drag: f64) -> Result<(&'static str, Vec<String>), CaseError> {
+    let (Some((lattice, count)), Some(d)) = (knobs.flow.lattice(), knobs.cells_per_diameter())
+    else {
+        return Err(CaseError::Table(format!("{} is no array", knobs.flow.word())));
+    };
+    let (n, nu, u) = (knobs.cells, viscosity(knobs.tau), knobs.lattice_velocity);
+    let volume = f64::from(n).powi(3);
+    // G V = n 6π ν a K U
+    let stokes = f64::from(count) * 3.0 * PI * nu * d;
+    let force = stokes * drag * u / volume;
+    let (si_dx, si_dt) = (SI_DX, si_dt(knobs, SI_DX));
+    // The drag stops the fluid in V/(n 6π ν a K) steps, the slowest time; rows come every half of it.
+    let rows = (0.5 * volume / (stokes * drag)).ceil() + 8.0;
+    // The start takes the leak for known: x = 3 (τ - 1/2) K/d² (tests/sphere_arrays.rs).
+    let start = u * (1.0 + 3.0 * (knobs.tau - 0.5) * drag / (d * d));
+    let coarse = matches!(knobs.storage, Storage::F32 | Storage::F16Shifted);
+    let mut changes = vec![
+        format!("domain.cells=[{n}, {}, {}]", n / 2, n / 2),
+        format!("domain.dx={si_dx:e}"),
+        format!("body_force.acceleration=[{:e}, 0.0, 0.0]", force * si_dx / (si_dt * si_dt)),
+        format!("initial.velocity=[{:e}, 0.0, 0.0]", start * si_dx / si_dt),
+        format!("records[0].every_steps={rows}"),
+        format!("stop.steps={}", if coarse { 20.0 } else { 100.0 } * rows),
+        format!("stop.steady.tolerance={:e}", quiet(knobs, 2e-5)),
+    ];
+    let (scene, sites) = sites(lattice);
+    for (i, site) in sites.iter().enumerate() {
+        let [x, y, z] = site.map(|share| share * f64::from(n) * si_dx);
+        changes.push(format!("grains[{i}].centre=[{x:e}, {y:e}, {z:e}]"));
+        changes.push(format!("grains[{i}].diameter={:e}", d * si_dx));
+    }
+    Ok((scene, changes))
+}
+
+/// The scene of a lattice, and where its spheres are, in edges of the unit cell.
+fn sites(lattice: &str) -> (&'static str, &'static [[f64; 3]]) {
+    match lattice {
+        "SC" => ("sc", &[[0.0; 3]]),
+        "BCC" => ("bcc", &[[0.0; 3], [0.5; 3]]),
+        _ => ("fcc", &[[0.0; 3], [0.5, 0.5, 0.0], [0.5, 0.0, 0.5], [0.0, 0.5, 0.5]]),
+    }
+}
+
+fn settling(knobs: &Knobs) -> Result<(&'static str, Vec<String>), CaseError> {
+    let ratio: f64 = knobs.geometry.parse().unwrap_or(f64::NAN);
+    let (d, nu) = (f64::from(knobs.cells), viscosity(knobs.tau));
+    let half = 0.5 * d / ratio;
+    if (half - half.round()).abs() > 1e-9 {
+        let problem = format!("a shaft of half width {half} cells is no whole number of them");
+        return Err(CaseError::Table(problem));
+    }
+    let si_dx = SI_GRAIN / d;
+    let si_velocity = knobs.lattice_velocity * si_dx / si_dt(knobs, si_dx);
+    // g = 18 ν U/(d² (ρ_s/ρ_f - 1))
+    let gravity = 18.0 * SI_VISCOSITY * si_velocity / (SI_GRAIN.powi(2) * (DENSITY_RATIO - 1.0));
+    let height = SHAFT_HEIGHT * knobs.cells;
+    // 0.3 cells above the middle, so that it does not stand on a node.
+    let si_start = (0.5 * f64::from(height) + 0.3) * si_dx;
+    // The slowest disturbance dies with 2 (π/(2 b))² ν, b the half width: a fiftieth of it is left, of
+    // which the grain feels a small part.
+    let steps = (0.8 * half * half / nu).ceil();
+    let changes = vec![
+        format!("domain.cells=[{half}, {half}, {height}]"),
+        format!("domain.dx={si_dx:e}"),
+        format!("gravity.acceleration=[0.0, 0.0, {:e}]", -gravity),
+        format!("grains[0].centre=[0.0, 0.0, {si_start:e}]"),
+        format!("grains[0].density={:e}", 1000.0 * DENSITY_RATIO),
+        format!("records[0].every_steps={}", (steps / 10.0).ceil()),
+        format!("stop.steps={steps}"),
+    ];
+    Ok(("settling", changes))
+}

@@ -1,0 +1,105 @@
+//! What stands behind a prediction, in words.
+
+use super::evidence::{GrainPoint, committed_sweep, grain_points};
+use super::knobs::CollisionKnob;
+use super::model::{LEAST_ERROR, Models};
+use super::trial::{committed_results, trials};
+use crate::cases::CaseError;
+
+/// How many of the nearest runs are named.
+const NEAREST: usize = 3;
+
+/// Evidence for an error with grains.
+pub fn of_grains(
+    models: &Models,
+    collision: CollisionKnob,
+    cells: f64,
+    tau: f64,
+    drag: f64,
+) -> Result<Vec<String>, CaseError> {
+    let Some(model) = models.of_grains(collision) else { return Ok(Vec::new()) };
+    let p = &model.fit.parameters;
+    let [[least, most], [low, high], [light, heavy]] = model.ranges;
+    let mut lines = vec![
+        format!(
+            "{} runs of {} geometries with {} (golden/tradeoff/sweep.csv, golden/sphere_arrays/study.csv): \
+             {least:.1} to {most:.1} cells, tau {low} to {high}, drag {light:.2} to {heavy:.0}",
+            model.counts[0],
+            model.counts[1],
+            collision.words()
+        ),
+        format!(
+            "error = K^{:.2} [{:.2} (tau - 1/2)/d^2 + {:.2}/d^{:.2}]; 95 % of what was \
+             left out of the fit lies within a factor of {:.2}",
+            p[2],
+            p[0].exp(),
+            p[1].exp(),
+            p[3],
+            model.band()
+        ),
+    ];
+    let trials = trials(models, &committed_results()?);
+    let hits = trials.iter().filter(|trial| trial.hits()).count();
+    lines.push(format!(
+        "configurations kept back from the fits: {hits} of {} within their band",
+        trials.len()
+    ));
+    let mut points = grain_points(&committed_sweep()?)?;
+    points.retain(|point| point.collision == collision && point.error > LEAST_ERROR);
+    let distance = |point: &GrainPoint| {
+        let ratio = |a: f64, b: f64| (a / b).ln().powi(2);
+        ratio(point.cells, cells) + ratio(point.tau - 0.5, tau - 0.5) + ratio(point.drag, drag)
+    };
+    points.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    for point in points.iter().take(NEAREST) {
+        lines.push(format!(
+            "near it: {}, {:.1} cells, tau {}, drag {:.2}: measured {:.1} %, by the model {:.1} % ({})",
+            point.geometry,
+            point.cells,
+            point.tau,
+            point.drag,
+            100.0 * point.error,
+            100.0 * model.error(point.cells, point.tau, point.drag),
+            point.source
+        ));
+    }
+    if !(light..=heavy).contains(&drag) {
+        lines.push(format!(
+            "warning: a drag of {drag:.2} lies outside the evidence ({light:.2} to {heavy:.0})"
+        ));
+    }
+    Ok(lines)
+}
+
+/// What is known at the Reynolds number of a scene.
+pub fn of_reynolds(reynolds: Option<f64>) -> Option<String> {
+    match reynolds? {
+        reynolds if reynolds < 1.0 => None,
+        reynolds if reynolds <= 35.0 => Some(format!(
+            "Re is about {reynolds:.1}, the runs above have 0.05 and less; ten Cate's sphere (Re 1.5 to 32, 8 \
+             to 16 cells) settles within 3 % of the experiment (golden/ten_cate/study.csv)"
+        )),
+        reynolds => Some(format!(
+            "warning: Re is about {reynolds:.0}; nothing above 32 stands behind this: boundary layers of \
+             grains get thinner, and the error is larger than predicted"
+        )),
+    }
+}
+
+/// Evidence for an error between plates.
+pub fn of_walls(models: &Models, collision: CollisionKnob) -> Vec<String> {
+    match models.of_walls(collision) {
+        Some(model) => vec![format!(
+            "{} runs between plates with {} (golden/tradeoff/sweep.csv): {:.3} times the slip that Ginzburg \
+             and d'Humieres derived, and {:.4} u^2 (u in cells per step)",
+            model.count,
+            collision.words(),
+            model.fit.parameters[0], model.fit.parameters[1]
+        )],
+        None => vec![
+            "with Lambda = 3/16 a plane wall along the grid stands exactly half-way between nodes: only \
+             rounding is left (golden/tradeoff/sweep.csv); walls that are not plane do not gain"
+                .to_owned(),
+        ],
+    }
+}

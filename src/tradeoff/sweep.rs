@@ -1,0 +1,149 @@
+//! Which runs a sweep makes: cheap ones first.
+
+use super::knobs::{CollisionKnob, Flow, Knobs, Storage};
+
+use CollisionKnob::{Dhumieres, Magic, Srt};
+
+/// Relaxation times of the full sweep, and the shorter list of what is not the default.
+const TAUS: [f64; 6] = [0.55, 0.6, 0.8, 1.0, 1.5, 2.0];
+const FEW_TAUS: [f64; 3] = [0.6, 0.8, 1.5];
+
+/// The runs for a flow; `quick` leaves a handful.
+pub fn runs(flow: Flow, quick: bool) -> Vec<Knobs> {
+    match flow {
+        Flow::Poiseuille => poiseuille(quick),
+        Flow::Settling => settling(quick),
+        Flow::SphereDrag => sphere_drag(quick),
+        Flow::Sc => arrays(flow, "0.2", &[8, 12, 16, 20, 24, 32], quick),
+        Flow::Bcc => arrays(flow, "0.3", &[8, 12, 16, 20, 24, 32], quick),
+        Flow::Fcc => arrays(flow, "0.45", &[8, 12, 16, 20, 24, 32], quick),
+        Flow::Seepage => arrays(flow, "0.6", &[8, 12, 16, 20, 24, 32], quick),
+    }
+}
+
+/// Every number of cells with every relaxation time and collision.
+fn grid(
+    flow: Flow,
+    geometry: &str,
+    cells: &[u32],
+    taus: &[f64],
+    collisions: &[CollisionKnob],
+) -> Vec<Knobs> {
+    let mut runs = Vec::new();
+    for &cells in cells {
+        for &tau in taus {
+            for &collision in collisions {
+                runs.push(Knobs::new(flow, geometry, cells, tau, collision));
+            }
+        }
+    }
+    runs
+}
+
+/// The same runs with a change to each.
+fn changed(runs: &[Knobs], change: impl Fn(&mut Knobs)) -> Vec<Knobs> {
+    let mut runs = runs.to_vec();
+    runs.iter_mut().for_each(change);
+    runs
+}
+
+fn on_kernel(knobs: &mut Knobs) {
+    knobs.engine = "wgpu".to_owned();
+    knobs.storage = Storage::F32Shifted;
+}
+
+fn poiseuille(quick: bool) -> Vec<Knobs> {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+        grid(Flow::Poiseuille, "", cells, taus, collisions)
+    };
+    if quick {
+        return grid(&[8, 16], &[0.6, 1.5], &CollisionKnob::ALL);
+    }
+    let some = grid(&[8, 16], &FEW_TAUS, &CollisionKnob::ALL);
+    let mut runs = grid(&[8, 12, 16, 24], &TAUS, &CollisionKnob::ALL);
+    for velocity in [0.03, 0.1, 0.2] {
+        runs.extend(changed(&some, |knobs| knobs.lattice_velocity = velocity));
+    }
+    runs.extend(changed(&some, on_kernel));
+    let mrt = grid(&[8, 16], &FEW_TAUS, &[Dhumieres, Magic]);
+    for storage in [Storage::F32, Storage::F16Shifted] {
+        runs.extend(changed(&mrt, |knobs| knobs.storage = storage));
+    }
+    runs
+}
+
+fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+        grid(flow, fraction, cells, taus, collisions)
+    };
+    if quick {
+        return grid(&[8, 12], &[0.6, 1.5], &[Srt, Dhumieres]);
+    }
+    let coarse = grid(&[8, 12, 16], &FEW_TAUS, &[Dhumieres]);
+    let mut runs = grid(cells, &TAUS, &[Dhumieres]);
+    runs.extend(grid(&[8, 12, 16, 24], &[0.6, 0.8, 1.0, 1.5], &[Srt, Magic]));
+    runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    runs.extend(changed(&grid(&[8, 16], &FEW_TAUS, &[Dhumieres]), on_kernel));
+    let sampled: &[u32] = if flow == Flow::Sc { &[1, 2, 3, 5, 10] } else { &[2, 5] };
+    for &samples in sampled {
+        runs.extend(changed(&coarse, |knobs| knobs.samples = samples));
+    }
+    if flow != Flow::Sc {
+        return runs;
+    }
+    let few = grid(&[8, 12], &FEW_TAUS, &[Dhumieres]);
+    for velocity in [1e-3, 3e-3, 1e-2] {
+        let faster = changed(&few, |knobs| knobs.lattice_velocity = velocity);
+        runs.extend(faster.iter().cloned());
+        for storage in [Storage::F32, Storage::F16Shifted] {
+            runs.extend(changed(&faster, |knobs| knobs.storage = storage));
+        }
+    }
+    for storage in [Storage::F32, Storage::F16Shifted] {
+        runs.extend(changed(&few, |knobs| knobs.storage = storage));
+    }
+    runs
+}
+
+fn settling(quick: bool) -> Vec<Knobs> {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+        grid(Flow::Settling, "0.25", cells, taus, collisions)
+    };
+    if quick {
+        return grid(&[4, 6], &[0.8, 1.5], &[Dhumieres]);
+    }
+    let mut runs = grid(&[4, 6], &TAUS, &[Dhumieres]);
+    runs.extend(grid(&[4, 6], &FEW_TAUS, &[Srt, Magic]));
+    let coarse = grid(&[4, 6], &FEW_TAUS, &[Dhumieres]);
+    runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&coarse, on_kernel));
+    for samples in [2, 5] {
+        runs.extend(changed(&coarse, |knobs| knobs.samples = samples));
+    }
+    runs.extend(grid(&[8], &[2.0, 1.5, 1.0, 0.8, 0.6], &[Dhumieres]));
+    runs.extend(grid(&[8], &[1.5, 0.8], &[Srt, Magic]));
+    runs.extend(changed(&grid(&[8], &[1.5, 0.8], &[Dhumieres]), on_kernel));
+    runs.extend(grid(&[12], &[2.0, 1.5, 1.0, 0.8], &[Dhumieres]));
+    runs.extend(grid(&[16], &[2.0], &[Dhumieres]));
+    runs
+}
+
+fn sphere_drag(quick: bool) -> Vec<Knobs> {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+        grid(Flow::SphereDrag, "0.00418879", cells, taus, collisions)
+    };
+    if quick {
+        return grid(&[20], &[0.8, 1.5], &[Dhumieres]);
+    }
+    let mut runs = grid(&[20], &[2.0, 1.5, 1.0, 0.8, 0.6], &[Dhumieres]);
+    runs.extend(grid(&[20], &[1.5, 0.8], &[Srt, Magic]));
+    let coarse = grid(&[20], &[1.5, 0.8], &[Dhumieres]);
+    runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&coarse, on_kernel));
+    runs.extend(grid(&[24], &[2.0, 1.5, 1.0, 0.8], &[Dhumieres]));
+    runs.extend(grid(&[30], &[2.0, 1.5, 1.0], &[Dhumieres]));
+    runs.extend(grid(&[30], &[1.5], &[Srt, Magic]));
+    runs.extend(grid(&[40], &[2.0, 1.5], &[Dhumieres]));
+    runs
+}

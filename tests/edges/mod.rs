@@ -1,0 +1,223 @@
+//! Extremes that both engines are put through: scenes at the edge of what makes sense, by the command line,
+//! and runs on either side of the frontiers that `golden/stability` holds.
+
+#![allow(dead_code, reason = "the tests of each engine use a part of this")]
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use psmrt::cases::EngineName;
+use psmrt::stability::{FLOWS, Found, Lab, Line, Model, Outcome};
+use psmrt_reference::partial_saturation::Weighting;
+
+use crate::cli::{Folder, stderr, stdout};
+use crate::common::Budget;
+
+/// A scene's sections besides its box: water, tau = 0.8, a record of every kind, 20 steps.
+const REST: &str = r#"
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.8
+[[records]]
+name = "box"
+kind = "box"
+every_steps = 5
+[[records]]
+name = "line"
+kind = "profile"
+axis = "x"
+[[records]]
+name = "plane"
+kind = "slice"
+axis = "z"
+[[records]]
+name = "fields"
+kind = "fields"
+formats = ["vti", "npy"]
+[stop]
+steps = 20
+"#;
+
+/// The steps of such a scene.
+pub const STEPS: u64 = 20;
+
+/// A box of so many cells with faces, forces, grains as `more` says.
+pub fn scene(cells: [usize; 3], more: &str) -> String {
+    format!("[domain]\ncells = {cells:?}\ndx = 1e-5\n{REST}{more}")
+}
+
+/// Every number in every table, array and picture below `folder` is finite. Pictures and arrays for
+/// ParaView hold the same values as the arrays for NumPy, which are read here.
+pub fn assert_all_finite(folder: &Path) {
+    let mut files = 0;
+    for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+        let name = entry.display();
+        if entry.is_dir() {
+            assert_all_finite(&entry);
+            continue;
+        }
+        let bytes = fs::read(&entry).unwrap();
+        match entry.extension().and_then(|ending| ending.to_str()) {
+            Some("csv") => {
+                for line in String::from_utf8(bytes).unwrap().lines().skip(1) {
+                    for cell in line.split(',') {
+                        let value: f64 = cell.parse().unwrap_or_else(|_| panic!("{name}: {line}"));
+                        assert!(value.is_finite(), "{name}: {line}");
+                    }
+                }
+            }
+            Some("npy") => {
+                let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+                for value in bytes[start..].chunks_exact(8) {
+                    let value = f64::from_le_bytes(value.try_into().unwrap());
+                    assert!(value.is_finite(), "{name} holds {value}");
+                }
+            }
+            Some("svg" | "json") => {
+                let text = String::from_utf8(bytes).unwrap();
+                assert!(!text.contains("NaN") && !text.contains(">inf"), "{name}");
+            }
+            _ => continue,
+        }
+        files += 1;
+    }
+    println!("{}: {files} files are finite", folder.display());
+}
+
+/// A row of a table, by the name of the column (its unit left out).
+pub fn last_value(table: &Path, column: &str) -> f64 {
+    let text = fs::read_to_string(table).unwrap();
+    let mut lines = text.lines();
+    let names = lines.next().unwrap().split(',').map(|name| name.split(" (").next().unwrap());
+    let number = names.into_iter().position(|name| name == column).unwrap();
+    lines.last().unwrap().split(',').nth(number).unwrap().parse().unwrap()
+}
+
+/// Runs a scene on an engine by the command line, in a folder of its own.
+pub fn run(engine: &str, folder: &Folder, text: &str) -> Output {
+    let file = folder.write("scene.toml", text);
+    let out = folder.path("out");
+    crate::cli::psmrt(&[
+        "run",
+        file.to_str().unwrap(),
+        "--engine",
+        engine,
+        "--out",
+        out.to_str().unwrap(),
+    ])
+}
+
+/// Runs a scene that is to come to its end, with finite results; returns the last row of its record `box`
+/// as a function of the column.
+pub fn ends(engine: &str, name: &str, text: &str) -> impl Fn(&str) -> f64 + use<> {
+    let folder = Folder::new(&format!("{name}_{engine}"));
+    let output = run(engine, &folder, text);
+    assert!(output.status.success(), "{}{}", stdout(&output), stderr(&output));
+    assert_all_finite(&folder.path("out"));
+    let table = folder.path("out/box.csv");
+    move |column| {
+        let _ = &folder; // kept as long as its table is read
+        last_value(&table, column)
+    }
+}
+
+/// A scene that is to break: the run must say so, exit with 1, and leave nothing that is not finite.
+pub fn breaks(engine: &str, name: &str, text: &str, cause: &str) {
+    let folder = Folder::new(&format!("{name}_{engine}"));
+    let output = run(engine, &folder, text);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{name}: {}{said}", stdout(&output));
+    assert!(said.contains("stopped before step") && said.contains(cause), "{name}: {said}");
+    println!("{name}: {said}");
+    assert_all_finite(&folder.path("out"));
+}
+
+/// A box of one cell gains in each step what the force gives, and nothing else happens to it.
+pub fn one_cell(engine: &str, tolerance: f64) {
+    let force = "[body_force]\nacceleration = [1.0, 0.0, 0.0]\n";
+    let last = ends(engine, "one_cell", &scene([1, 1, 1], force));
+    // dt = (0.8 - 1/2)/3 dx²/ν = 1e-5 s; u = a n dt
+    let expected = STEPS as f64 * 1e-5;
+    let found = last("superficial_velocity_x");
+    assert!((found / expected - 1.0).abs() < tolerance, "{found} m/s, {expected} are right");
+}
+
+/// A channel of one column of cells is the channel of nine: nothing varies along it.
+pub fn one_column(engine: &str, tolerance: f64) {
+    let more = "[body_force]\nacceleration = [1.0, 0.5, 0.0]\n[faces]\nz_low.kind = \"wall\"\n\
+                z_high.kind = \"wall\"\n";
+    let narrow = ends(engine, "one_column", &scene([1, 1, 8], more));
+    let wide = ends(engine, "nine_columns", &scene([3, 3, 8], more));
+    for column in ["superficial_velocity_x", "superficial_velocity_y", "max_speed"] {
+        let (narrow, wide) = (narrow(column), wide(column));
+        assert!(wide > 1e-5 && (narrow / wide - 1.0).abs() < tolerance, "{narrow}, {wide} m/s");
+    }
+}
+
+/// A box that is all solid, held still, stops the fluid in one step and keeps it stopped.
+pub fn all_solid(engine: &str, tolerance: f64) {
+    let mirrors = ["x_low", "x_high", "y_low", "y_high", "z_low", "z_high"];
+    let mut more = "[initial]\nvelocity = [1e-3, 0.0, 0.0]\n[body_force]\n\
+                    acceleration = [1.0, 0.0, 0.0]\n[[grains]]\nkind = \"sphere\"\n\
+                    centre = [0.0, 0.0, 0.0]\ndiameter = 1.6e-4\n[faces]\n"
+        .to_owned();
+    mirrors.iter().for_each(|face| more += &format!("{face}.kind = \"free_slip\"\n"));
+    let last = ends(engine, "all_solid", &scene([4, 4, 4], &more));
+    let found = last("superficial_velocity_x").abs();
+    assert!(found < tolerance * 1e-3, "{found} m/s of 1e-3 m/s are left");
+}
+
+/// What is at rest stays at rest, and a steady-state criterion does not take "no flow yet" for steady.
+pub fn at_rest(engine: &str) {
+    let more = "[[grains]]\nkind = \"sphere\"\ncentre = [4e-5, 4e-5, 4e-5]\ndiameter = 4e-5\n\
+                [stop.steady]\nrecord = \"box\"\ncolumn = \"superficial_velocity_x\"\n\
+                tolerance = 1e-3\n";
+    let last = ends(engine, "at_rest", &scene([8, 8, 8], more));
+    // The weights 1/18 and 1/36 add up to a residue of some epsilons times the speed of sound, 1 m/s here.
+    assert!(last("max_speed") < 1e-14, "{} m/s", last("max_speed"));
+    assert_eq!(last("step"), STEPS as f64);
+}
+
+/// A list of no grains is as if there were no list.
+pub fn no_grains(engine: &str) {
+    let force = "[body_force]\nacceleration = [1.0, 0.0, 0.0]\n";
+    let folder = Folder::new(&format!("no_grains_list_{engine}"));
+    let list = folder.write("none.csv", "x (m),y (m),z (m),diameter (m)\n");
+    let grains = format!("[[grains]]\nkind = \"csv\"\nfile = {list:?}\n");
+    let with = ends(engine, "no_grains", &scene([4, 4, 4], &format!("{force}{grains}")));
+    let without = ends(engine, "no_list", &scene([4, 4, 4], force));
+    for column in ["density", "superficial_velocity_x", "max_speed"] {
+        assert_eq!(with(column), without(column), "{column}");
+    }
+}
+
+/// A run close to a frontier, and whether it is to survive.
+pub struct Near {
+    pub flow: &'static str,
+    pub model: Model,
+    pub weighting: Option<Weighting>,
+    pub variant: &'static str,
+    pub tau: f64,
+    pub value: f64,
+    pub lives: bool,
+}
+
+/// Makes the run and holds it to what it should be; a run that is to break must be stopped by the guard,
+/// at a step that is one of its looks.
+pub fn assert_near(near: &Near, engine: EngineName, lab: &Lab, cells: u64, budget: &mut Budget) {
+    let Near { flow, model, weighting, variant, tau, value, lives } = *near;
+    let line = Line { engine, model, weighting, variant, tau };
+    let flow = FLOWS.iter().find(|known| known.name == flow).unwrap();
+    let found = (flow.run)(lab, &line, value).or_else(Found::of).unwrap();
+    budget.spend(found.steps * cells);
+    println!("{} {line:?} {value}: {found:?}", flow.name);
+    if lives {
+        assert!(found.outcome.lived(), "{} {line:?} at {value}: {found:?}", flow.name);
+    } else {
+        assert_eq!(found.outcome, Outcome::Stopped, "{} {line:?} at {value}", flow.name);
+        assert!(found.how.is_some());
+    }
+}

@@ -1,0 +1,269 @@
+//! The trade-off study: its fits, fronts and files, and that its committed tables are what its rows make.
+
+mod cli;
+mod common;
+
+use cli::Folder;
+use common::{Budget, golden_rows};
+use proptest::prelude::*;
+use psmrt::cases::Table;
+use psmrt::tradeoff::evidence::{GrainPoint, committed_sweep, grain_points, wall_points};
+use psmrt::tradeoff::front::front;
+use psmrt::tradeoff::knobs::{CollisionKnob, Flow, Knobs, Storage};
+use psmrt::tradeoff::measure::Runner;
+use psmrt::tradeoff::model::{GrainModel, Models};
+use psmrt::tradeoff::record::{Record, Row};
+use psmrt::tradeoff::storage::half;
+use psmrt::tradeoff::sweep::runs;
+use psmrt::tradeoff::tables;
+use psmrt::tradeoff::trial::{committed_results, trials};
+use std::fs;
+use std::path::Path;
+
+const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden");
+
+/// Points of the model `K^0.8 [4 (τ - 1/2)/d² + 3/d³]`, each off by a factor `exp(noise)`.
+fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
+    let mut points = Vec::new();
+    for (geometry, drag) in [("a", 1.4), ("b", 3.0), ("c", 10.0), ("d", 30.0), ("e", 100.0)] {
+        for cells in [4.0, 6.0, 8.0, 12.0, 16.0_f64] {
+            for tau in [0.6, 0.8, 1.0, 1.5, 2.0] {
+                let leak = 4.0 * (tau - 0.5) / (cells * cells);
+                let error = f64::powf(drag, 0.8) * (leak + 3.0 / cells.powi(3));
+                points.push(GrainPoint {
+                    geometry: geometry.to_owned(),
+                    source: "synthetic",
+                    collision: CollisionKnob::Dhumieres,
+                    cells,
+                    tau,
+                    drag,
+                    error: error * noise().exp(),
+                });
+            }
+        }
+    }
+    points
+}
+
+#[test]
+fn fit_recovers_the_coefficients_that_made_the_data() {
+    let exact = GrainModel::fit(CollisionKnob::Dhumieres, &synthetic(|| 0.0)).unwrap();
+    let p = &exact.fit.parameters;
+    for (found, wanted) in [(p[0].exp(), 4.0), (p[1].exp(), 3.0), (p[2], 0.8), (p[3], 3.0)] {
+        // Derivatives by differences of 1e-7 leave some 1e-7.
+        assert!((found - wanted).abs() < 1e-5 * wanted, "{found} instead of {wanted}");
+    }
+    assert!(exact.scatter < 1e-5, "{}", exact.scatter);
+
+    // A tenth of noise, the same in every run: from a linear congruence, spread evenly, which has the
+    // standard deviation 0.1 on ±0.1 sqrt(3).
+    let mut state = 1_u32;
+    let noise = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        0.1 * 3.0_f64.sqrt() * (2.0 * f64::from(state >> 8) / f64::from(1_u32 << 24) - 1.0)
+    };
+    let noisy = GrainModel::fit(CollisionKnob::Dhumieres, &synthetic(noise)).unwrap();
+    let (p, e) = (&noisy.fit.parameters, &noisy.fit.errors);
+    for (i, wanted) in [4.0_f64.ln(), 3.0_f64.ln(), 0.8, 3.0].into_iter().enumerate() {
+        // Four numbers within three standard errors: missed by chance in one of a hundred such data sets,
+        // and these data are always the same.
+        assert!((p[i] - wanted).abs() < 3.0 * e[i], "parameter {i}: {} ± {}", p[i], e[i]);
+    }
+    // 125 points give a standard deviation to 6 %.
+    assert!((noisy.fit.scale / 0.1 - 1.0).abs() < 0.2, "{}", noisy.fit.scale);
+}
+
+#[test]
+fn front_of_hand_made_points_is_the_expected_one() {
+    let points = [
+        (1.0, 9.0),
+        (2.0, 5.0),
+        (2.0, 6.0), // as dear as the one before, and worse
+        (3.0, 5.0), // as good as (2, 5), and dearer
+        (4.0, 1.0),
+        (0.5, f64::INFINITY), // broken
+        (9.0, 2.0),
+    ];
+    assert_eq!(front(&points), [0, 1, 4]);
+    assert!(front(&[]).is_empty());
+}
+
+proptest! {
+    #[test]
+    fn front_is_what_nothing_beats(points in prop::collection::vec((1_u8..20, 1_u8..20), 0..40)) {
+        let points: Vec<_> = points.iter().map(|&(a, b)| (f64::from(a), f64::from(b))).collect();
+        let best = front(&points);
+        let beats = |a: (f64, f64), b: (f64, f64)| a.0 <= b.0 && a.1 <= b.1 && a != b;
+        for i in 0..points.len() {
+            let beaten = points.iter().any(|&other| beats(other, points[i]));
+            let same = best.iter().any(|&kept| points[kept] == points[i]);
+            prop_assert_eq!(same, !beaten, "point {:?}", points[i]);
+        }
+        prop_assert!(best.windows(2).all(|pair| points[pair[0]].0 < points[pair[1]].0));
+    }
+}
+
+#[test]
+fn half_precision_rounds_as_ieee_754_says() {
+    let two = |e: i32| 2.0_f64.powi(e);
+    for (value, wanted) in [
+        (0.0, 0.0),
+        (1.0, 1.0),
+        (1.0 + two(-11), 1.0), // half-way: to the even neighbour
+        (1.0 + 3.0 * two(-11), 1.0 + two(-9)),
+        (1.0 + 1.01 * two(-11), 1.0 + two(-10)),
+        (-1.0 - 1.01 * two(-11), -1.0 - two(-10)),
+        (65504.0, 65504.0), // the largest
+        (65519.0, 65504.0),
+        (65520.0, f64::INFINITY),
+        (two(-24), two(-24)), // the smallest
+        (two(-25), 0.0),
+        (1.01 * two(-25), two(-24)),
+        (1.5 * two(-20), 1.5 * two(-20)),
+    ] {
+        assert_eq!(half(value), wanted, "{value:e}");
+    }
+}
+
+#[test]
+fn knobs_read_back_as_they_were_written() {
+    let all = Flow::ALL.into_iter().flat_map(|flow| runs(flow, false));
+    let mut count = 0;
+    for knobs in all {
+        assert_eq!(Knobs::from_row(&knobs.row()).unwrap(), knobs);
+        count += 1;
+    }
+    assert!(count > 500, "{count}");
+}
+
+#[test]
+fn a_sweep_goes_on_after_it_was_cut_off_and_refuses_a_foreign_file() {
+    let folder = Folder::new("tradeoff_record");
+    let file = folder.path("sweep.csv");
+    let rows = committed_sweep().unwrap();
+    let mut record = Record::open(&file, "# a header\n").unwrap();
+    for row in &rows[..2] {
+        record.add(row.clone()).unwrap();
+    }
+    let whole = fs::read_to_string(&file).unwrap();
+    fs::write(&file, format!("{whole}sc,0.2,8,0.")).unwrap();
+    let mut again = Record::open(&file, "# another header\n").unwrap();
+    assert_eq!(again.rows.len(), 2);
+    assert!(again.holds(&rows[0].knobs) && !again.holds(&rows[2].knobs));
+    assert_eq!(fs::read_to_string(&file).unwrap(), whole);
+    again.add(rows[2].clone()).unwrap();
+    let read = Record::open(&file, "").unwrap().rows;
+    assert_eq!(read[2].knobs, rows[2].knobs);
+
+    let foreign = folder.write("foreign.csv", "a,b\n1,2\n");
+    let error = Record::open(&foreign, "").unwrap_err().to_string();
+    assert!(error.contains("foreign.csv") && error.contains("columns"), "{error}");
+    assert_eq!(fs::read_to_string(&foreign).unwrap(), "a,b\n1,2\n");
+}
+
+/// One measured row, its cell updates counted.
+fn measured(runner: &mut Runner, knobs: &Knobs, budget: &mut Budget) -> Row {
+    let row = runner.measure(knobs).unwrap();
+    budget.spend(row.cell_updates());
+    row
+}
+
+#[test]
+fn committed_rows_can_be_measured_again() {
+    let mut budget = Budget::oracle(1_600_000);
+    let mut runner = Runner::new(Path::new(GOLDEN), None).unwrap();
+    let committed = committed_sweep().unwrap();
+    let mut compared = 0;
+    for row in &committed {
+        let Knobs { flow, cells, tau, ref engine, storage, .. } = row.knobs;
+        let coarse = match flow {
+            Flow::Settling => cells == 4 && tau == 1.5,
+            Flow::SphereDrag => false,
+            _ => cells == 8 && tau == 1.5,
+        };
+        if !coarse || engine != "reference" || storage != Storage::F64 {
+            continue;
+        }
+        let again = measured(&mut runner, &row.knobs, &mut budget);
+        let (new, old) = (again.error.unwrap(), row.error.unwrap());
+        // The same program on another machine: mathematical libraries differ in the last digit, and the
+        // error is rounded to six.
+        assert!((new - old).abs() < 1e-5 * old.abs().max(1e-3), "{:?}: {new} {old}", row.knobs);
+        compared += 1;
+    }
+    assert!(compared >= 30, "only {compared}");
+}
+
+#[test]
+fn slow_flow_drowns_in_unshifted_single_precision_and_not_in_shifted() {
+    let mut budget = Budget::oracle(400_000);
+    let mut runner = Runner::new(Path::new(GOLDEN), None).unwrap();
+    let usual = Knobs::new(Flow::Sc, "0.2", 8, 0.8, CollisionKnob::Dhumieres);
+    let error = |storage, budget: &mut Budget, runner: &mut Runner| {
+        let knobs = Knobs { storage, ..usual.clone() };
+        measured(runner, &knobs, budget).error.unwrap()
+    };
+    let exact = error(Storage::F64, &mut budget, &mut runner);
+    let unshifted = error(Storage::F32, &mut budget, &mut runner);
+    println!("f64 {exact}, f32 unshifted {unshifted}");
+    // The body force adds some 1e-8 a step to populations of 0.03 to 0.3, which single precision keeps to
+    // 1e-9 to 1e-8: percents are lost. (The kernel keeps them less their weights: tests/kernel_physics.rs.)
+    assert!((unshifted - exact).abs() > 1e-3, "{unshifted} {exact}");
+}
+
+#[test]
+fn what_was_kept_back_is_in_no_fit() {
+    let points = grain_points(&committed_sweep().unwrap()).unwrap();
+    let list = golden_rows("tradeoff/held_back.csv");
+    let results = committed_results().unwrap();
+    // The first row holds the names.
+    assert_eq!(results.len(), list.len() - 1, "each of the list has been run");
+    assert!(results.len() >= 12);
+    for (row, listed) in results.iter().zip(&list[1..]) {
+        assert_eq!(row.knobs.row(), listed.iter().collect::<Vec<_>>(), "as listed");
+        let Some(cells) = row.knobs.cells_per_diameter() else { continue };
+        let same = points.iter().any(|point| {
+            point.collision == row.knobs.collision
+                && point.tau == row.knobs.tau
+                && (point.cells - cells).abs() < 1e-3
+                && point.drag == row.drag
+        });
+        assert!(!same, "{:?} is among the points", row.knobs);
+    }
+}
+
+#[test]
+fn committed_tables_are_what_the_committed_rows_make() {
+    let rows = committed_sweep().unwrap();
+    let models = Models::fit(&grain_points(&rows).unwrap(), &wall_points(&rows));
+    let trials = trials(&models, &committed_results().unwrap());
+    let golden = |name: &str| Table::read(&Path::new(GOLDEN).join("tradeoff").join(name)).unwrap();
+    let costs = golden("cost.csv");
+    for (name, made) in [
+        ("fits.csv", tables::fits(&models)),
+        ("held_back_check.csv", tables::check(&trials)),
+        ("front.csv", tables::fronts(&rows, &costs)),
+    ] {
+        assert_eq!(
+            golden(name),
+            made,
+            "{name}: make it anew with psmrt tradeoff --out golden/tradeoff"
+        );
+    }
+}
+
+#[test]
+fn bands_are_narrow_and_hold() {
+    let rows = committed_sweep().unwrap();
+    let models = Models::fit(&grain_points(&rows).unwrap(), &wall_points(&rows));
+    assert_eq!(models.grains.len(), 3);
+    for model in &models.grains {
+        // Wider ones would be no help in choosing a grid: from 8 to 12 cells an error falls by 2.25.
+        assert!(model.band() < 1.5, "{}: {}", model.collision.words(), model.band());
+    }
+    let trials = trials(&models, &committed_results().unwrap());
+    let hits = trials.iter().filter(|trial| trial.hits()).count();
+    println!("{hits} of {}", trials.len());
+    // Bands are made to hold 95 %; 90 % is the aim.
+    assert!(10 * hits >= 9 * trials.len(), "{hits} of {}", trials.len());
+}
