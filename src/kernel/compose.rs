@@ -106,13 +106,8 @@ impl Recipe<'_> {
                 add(include_str!("wgsl/solid_part.wgsl"));
             }
             if steps {
-                add(match self.setup.collision {
-                    // With solids a single relaxation time is a set of equal rates.
-                    Collision::Srt { .. } if solids == SolidData::None => {
-                        include_str!("wgsl/single.wgsl")
-                    }
-                    _ => include_str!("wgsl/moments.wgsl"),
-                });
+                // A single relaxation time is a set of equal rates: a shader of its own was not faster.
+                add(include_str!("wgsl/moments.wgsl"));
             }
         }
         add(&access(&self.layout, steps));
