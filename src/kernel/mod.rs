@@ -3,7 +3,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `device.rs` | adapters, and the device opened on one |
-//! | `layout.rs`, `field.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
+//! | `layout.rs`, `field.rs`, `table.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
@@ -36,6 +36,7 @@ mod sphere;
 mod state;
 mod steps;
 mod streaming;
+mod table;
 mod watch;
 
 pub use device::{AdapterFacts, Gpu, adapters};
