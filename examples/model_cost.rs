@@ -192,7 +192,7 @@ fn bed(velocity: Vec3) -> Vec<Solid> {
     let place = |i: usize| {
         let cube = i / 2;
         let corner = [cube % 2, cube / 2 % 2, cube / 4].map(|c| 16.0 * c as f64);
-        Vec3::from(corner).add_scalar(0.3 + if i % 2 == 0 { 0.0 } else { 8.0 })
+        Vec3::from(corner).add_scalar(0.3 + if i.is_multiple_of(2) { 0.0 } else { 8.0 })
     };
     let sphere = |i| Solid { velocity, ..Solid::fixed_sphere(place(i), radius) };
     (0..16).map(sphere).collect()

@@ -2,6 +2,7 @@
 //! will cost, and what looks risky.
 
 mod grains;
+mod stability;
 
 use std::time::{Duration, Instant};
 
@@ -296,6 +297,9 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         warn(reason, "use a `pressure` outlet, or watch the column density of a record `box`");
     }
     for Warning { reason, remedy } in grains::warnings(scene) {
+        warn(reason, &remedy);
+    }
+    for Warning { reason, remedy } in stability::warnings(scene) {
         warn(reason, &remedy);
     }
     if scene.records.is_empty() && scene.exact.is_none() {

@@ -96,6 +96,16 @@ fn committed_speeds_of_the_kernel_are_above_the_oracles() {
 }
 
 #[test]
+fn committed_maps_of_stability_hold_their_claims() {
+    holds("stability", &mut Budget::oracle(0));
+}
+
+#[test]
+fn committed_costs_hold_their_claims() {
+    holds("cost", &mut Budget::oracle(0));
+}
+
+#[test]
 fn every_case_has_its_parts_and_a_test() {
     let tests = include_str!("acceptance.rs");
     for case in CASES {

@@ -6,6 +6,10 @@ mod common;
 mod edges;
 
 use common::Budget;
+use psmrt::cases::EngineName;
+use psmrt::stability::Lab;
+
+const LAB: Lab = Lab { gpu: None };
 
 #[test]
 fn a_box_of_one_cell_gains_what_the_force_gives() {
@@ -35,7 +39,26 @@ fn what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady() {
 }
 
 #[test]
-fn a_list_of_no_grains_is_as_if_there_were_none() {
-    Budget::oracle(3_000).spend(edges::STEPS * 128);
-    edges::no_grains("reference");
+fn a_solid_phase_without_solids_is_none() {
+    edges::no_grains(EngineName::Reference, &LAB, &mut Budget::oracle(3_000));
+}
+
+#[test]
+fn units_from_nanometres_to_metres_give_the_same_lattice_numbers() {
+    edges::any_units(EngineName::Reference, &LAB, &mut Budget::oracle(300_000));
+}
+
+#[test]
+fn runs_inside_the_frontiers_survive_and_those_outside_are_stopped() {
+    let mut budget = Budget::oracle(16_000_000);
+    for near in edges::near_frontiers() {
+        edges::assert_near(&near, EngineName::Reference, &LAB, &mut budget);
+    }
+}
+
+#[test]
+fn scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite() {
+    // At most all their steps.
+    Budget::oracle(1_300_000).spend(200 * (4096 + 1728));
+    edges::broken_scenes("reference");
 }

@@ -9,6 +9,7 @@ mod bed_laws;
 mod bench;
 mod cloud_settling;
 mod conformance;
+mod cost;
 mod drift;
 mod duct;
 mod kernel_parity;
@@ -22,6 +23,7 @@ mod sphere_arrays;
 mod sphere_drag;
 mod sphere_drag_figures;
 mod sphere_drag_study;
+mod stability;
 mod steadiness;
 mod stokes_settling;
 mod stream;
@@ -91,6 +93,8 @@ pub const CASES: &[Case] = &[
     tradeoff::CASE,
     kernel_parity::CASE,
     kernel_speed::CASE,
+    stability::CASE,
+    cost::CASE,
 ];
 
 /// A claim about one number.

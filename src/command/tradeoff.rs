@@ -90,7 +90,7 @@ fn summarise(
     } else {
         say("measuring what a cell update costs");
         let costs = cost::measure(&request.golden, gpu)?;
-        save("cost.csv", "Cost of a cell update, the best of seven rounds", &costs)?;
+        save("cost.csv", "Cost of a cell update, the best of 80 rounds of 15 ms", &costs)?;
         costs
     };
     let models = Models::fit(&grain_points(rows)?, &wall_points(rows));

@@ -14,6 +14,11 @@ use crate::scene::{FreePart, Scene};
 /// A grain pressed in by more than this share of its diameter is no hard sphere any more.
 const DEEP: f64 = 0.01;
 
+/// Density ratio below which grains are too light for the lagged inertia of the fluid inside, and the next
+/// smaller that was tried, which broke: golden/stability/movers.csv, tau from 0.501 to 2.
+const LIGHT: f64 = 0.8;
+const TOO_LIGHT: f64 = 0.5;
+
 /// Contacts shorter than so many time steps are over before the fluid takes part.
 const BRIEF: f64 = 4.0;
 
@@ -178,6 +183,17 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         let reason = "a body force on the fluid does not push the grains as the pressure gradient that \
                       it stands for would: they lack V grad p";
         warn(reason.to_owned(), "drive the flow by pressure faces, or add the force to [gravity]");
+    }
+    let lightest = free(part)
+        .map(|grain| grain.mass / (part.settings.fluid_density * sphere_volume(grain.radius)))
+        .fold(f64::INFINITY, f64::min);
+    if lightest < LIGHT && part.settings.internal_fluid == InternalFluid::Lagged {
+        let reason = format!(
+            "a grain of {lightest:.2} times the density of the fluid: with the inertia of the fluid inside given \
+             back a step later, grains at {TOO_LIGHT} times and below were driven by it until the run broke, those at \
+             {LIGHT} times were right (golden/stability/movers.csv)"
+        );
+        warn(reason, "use `internal_fluid = \"kept\"` in [coupling]");
     }
     let [_, under] = overlaps(scene, part);
     if under > DEEP {

@@ -3,6 +3,9 @@
 use serde_json::Value;
 
 use super::format::SceneFile;
+use crate::stability::Model;
+use crate::stability::limits::Measured;
+use psmrt_reference::partial_saturation::Weighting;
 
 /// The schema, for editors that complete and check TOML.
 pub fn schema() -> Value {
@@ -47,8 +50,31 @@ pub fn reference() -> String {
         let titles: Vec<String> = columns.iter().map(|column| column.title()).collect();
         text.push_str(&format!("- `{kind}`: {}\n", titles.join(", ")));
     }
+    text.push_str(LIMITS_HEAD);
+    for tau in [0.501, 0.51, 0.55, 0.6, 1.0] {
+        let mut cells = vec![format!("{tau}")];
+        let nt = Measured::Bed(Weighting::NobleTorczynski);
+        for (measured, model) in
+            [Measured::Fluid, nt].into_iter().flat_map(|m| [(m, Model::Srt), (m, Model::DHumieres)])
+        {
+            let limit = measured.limit_of(model, tau);
+            cells.push(limit.map_or_else(String::new, |limit| format!("{}", limit.lives)));
+        }
+        text.push_str(&format!("| {} |\n", cells.join(" | ")));
+    }
     text
 }
+
+const LIMITS_HEAD: &str = "
+## How fast a flow may be
+
+The largest velocity, in cells per time step, that survived in the maps of `golden/stability` (`psmrt
+stability`): of a shear layer, and the superficial one through an ordered bed of porosity 0.4. `psmrt check`
+warns of scenes beyond. What is accurate ends earlier: below 0.05 errors of compressibility vanish.
+
+| tau | shear layer, SRT | shear layer, MRT | bed, SRT | bed, MRT |
+|---|---|---|---|---|
+";
 
 const RECORDS_HEAD: &str = "
 ## Columns of the records

@@ -81,8 +81,12 @@ pub(super) const BY_INLET: Flow = Flow {
             let slow = lines(engine).into_iter().filter(|line| line.model != Model::Magic);
             all.extend(slow.map(|line| Line { variant, ..line }));
         }
-        // A third of the work: where the bed by a force has shown no more.
-        all.retain(|line| (0.5001..=1.0).contains(&line.tau) && line.tau != 0.8);
+        // A part of the lines of the bed by a force: these runs are long.
+        all.retain(|line| {
+            let is_thin =
+                line.variant == "free" || line.weighting != Some(Weighting::SolidFraction);
+            is_thin && [0.501, 0.51, 0.6, 1.0].contains(&line.tau)
+        });
         if engine == EngineName::Wgpu {
             all.retain(|line| line.variant == "pressure");
         }

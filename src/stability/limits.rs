@@ -121,7 +121,8 @@ impl Measured {
             .collect();
         own.sort_by(|a, b| a.tau.total_cmp(&b.tau));
         let above = own.iter().position(|one| one.tau >= tau)?;
-        let around = &own[above.saturating_sub(1)..=above];
+        let is_measured = own[above].tau - tau < 1e-9;
+        let around = &own[if is_measured { above } else { above.saturating_sub(1) }..=above];
         let lives = around.iter().filter_map(|one| one.lives).fold(f64::INFINITY, f64::min);
         let right = around.iter().map(|one| one.right.unwrap_or(0.0)).fold(f64::INFINITY, f64::min);
         lives.is_finite().then_some(Limit { lives, right: Some(right).filter(|&u| u > 0.0) })

@@ -140,10 +140,12 @@ impl Line {
 }
 
 /// Whether a line is mapped: all in double precision; in single precision, which differs in its rounding
-/// alone, the two collisions that scenes use and every other relaxation time.
+/// alone, some: the two collisions that scenes use, their default weight, every other relaxation time.
 fn is_mapped(line: &Line) -> bool {
     line.engine == EngineName::Reference
-        || (line.model != Model::Magic && ![0.5001, 0.55, 0.8, 2.0].contains(&line.tau))
+        || (line.model != Model::Magic
+            && line.weighting != Some(Weighting::SolidFraction)
+            && ![0.500_1, 0.55, 0.8, 2.0].contains(&line.tau))
 }
 
 /// How a run ended.

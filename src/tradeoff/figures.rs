@@ -45,7 +45,7 @@ fn converges(row: &Row) -> bool {
 pub fn on_front<'a, 'b>(placed: &'b [Placed<'a>], all: bool) -> Vec<&'b Placed<'a>> {
     let offered: Vec<_> = placed
         .iter()
-        .filter(|p| matches!(p.row.knobs.storage, Storage::F64 | Storage::F32Shifted))
+        .filter(|p| !p.row.knobs.is_emulated())
         .filter(|p| all || converges(p.row))
         .collect();
     let points: Vec<_> = offered.iter().map(|p| (p.seconds, p.error)).collect();

@@ -219,6 +219,11 @@ impl Knobs {
         }
     }
 
+    /// Whether populations are kept in fewer digits than the engine computes with.
+    pub fn is_emulated(&self) -> bool {
+        self.engine == "reference" && self.storage != Storage::F64
+    }
+
     /// A velocity so low that inertia and compressibility hardly count, to three digits.
     fn usual_velocity(&self) -> f64 {
         let nu = (self.tau - 0.5) / 3.0;

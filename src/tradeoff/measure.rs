@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use psmrt_reference::lattice::viscosity;
 
-use super::knobs::{Flow, Knobs, Storage};
+use super::knobs::{Flow, Knobs};
 use super::record::Row;
 use super::setting::{Literature, Setting};
 use super::storage::RoundedEngine;
@@ -58,7 +58,7 @@ impl Runner {
             }
             _ => &mut self.oracle,
         };
-        let emulated = matches!(knobs.storage, Storage::F32 | Storage::F16Shifted);
+        let emulated = knobs.is_emulated();
         let start = Instant::now();
         let ended = if emulated {
             let scene = bench.load(&scene, &changes)?;

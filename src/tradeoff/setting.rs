@@ -106,12 +106,12 @@ fn poiseuille(knobs: &Knobs) -> (&'static str, Vec<String>) {
 }
 
 /// Relative change from row to row below which a run is steady; single precision has noise above
-/// 1e-6, and coarser storage never becomes quiet: it runs to its limit.
+/// 1e-6, and emulated storage never becomes quiet: it runs to its limit.
 fn quiet(knobs: &Knobs, wanted: f64) -> f64 {
     match knobs.storage {
+        _ if knobs.is_emulated() => 1e-9,
         Storage::F64 => wanted,
-        Storage::F32Shifted => wanted.max(1e-5),
-        Storage::F32 | Storage::F16Shifted => 1e-9,
+        _ => wanted.max(1e-5),
     }
 }
 
@@ -130,14 +130,13 @@ fn array(knobs: &Knobs, drag: f64) -> Result<(&'static str, Vec<String>), CaseEr
     let rows = (0.5 * volume / (stokes * drag)).ceil() + 8.0;
     // The start takes the leak for known: x = 3 (τ - 1/2) K/d² (tests/sphere_arrays.rs).
     let start = u * (1.0 + 3.0 * (knobs.tau - 0.5) * drag / (d * d));
-    let coarse = matches!(knobs.storage, Storage::F32 | Storage::F16Shifted);
     let mut changes = vec![
         format!("domain.cells=[{n}, {}, {}]", n / 2, n / 2),
         format!("domain.dx={si_dx:e}"),
         format!("body_force.acceleration=[{:e}, 0.0, 0.0]", force * si_dx / (si_dt * si_dt)),
         format!("initial.velocity=[{:e}, 0.0, 0.0]", start * si_dx / si_dt),
         format!("records[0].every_steps={rows}"),
-        format!("stop.steps={}", if coarse { 20.0 } else { 100.0 } * rows),
+        format!("stop.steps={}", if knobs.is_emulated() { 20.0 } else { 100.0 } * rows),
         format!("stop.steady.tolerance={:e}", quiet(knobs, 2e-5)),
     ];
     let (scene, sites) = sites(lattice);

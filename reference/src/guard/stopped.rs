@@ -1,28 +1,12 @@
-//! The guard: stops a run whose state is broken, and says why and what to change.
+//! Why a run was stopped: what is wrong, why probably, and what to change.
 
+use super::Guard;
 use crate::domain::{FACE_NAMES, Face};
-use crate::lattice::{Populations, density, momentum, viscosity};
+use crate::lattice::viscosity;
 use crate::setup::Setup;
 use crate::solids::{Shape, Solid};
 use std::fmt;
 use thiserror::Error;
-
-/// When the guard looks and what it takes for broken.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GuardSettings {
-    /// Steps between looks. One look costs about a fifteenth of a step (`cargo bench`), so looking
-    /// every 16 steps costs half a percent; what breaks in between is found at the next look.
-    pub interval: u64,
-    /// Largest speed of the fluid in lattice units. The speed of sound is 0.577; the default 0.5 is
-    /// a Mach number of 0.87, far beyond what is accurate but still short of what always fails.
-    pub max_speed: f64,
-}
-
-impl Default for GuardSettings {
-    fn default() -> Self {
-        GuardSettings { interval: 16, max_speed: 0.5 }
-    }
-}
 
 /// What is wrong with a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +15,7 @@ pub enum Symptom {
     NotFinite,
     /// The density is zero or negative.
     NoDensity(f64),
-    /// The fluid is faster than [`GuardSettings::max_speed`].
+    /// The fluid is faster than [`super::GuardSettings::max_speed`].
     TooFast(f64),
     /// The mean density of the box is less than half or more than twice its first value.
     MeanDensity(f64),
@@ -165,157 +149,37 @@ const MAX_GRID_REYNOLDS: f64 = 10.0;
 /// A mean density this far from its first value has drifted, if something else broke.
 const MAX_DENSITY_DRIFT: f64 = 0.1;
 
-/// A mean density beyond this factor of its first value is itself broken: the fluid is meant to be
-/// nearly incompressible.
-const MAX_DENSITY_FACTOR: f64 = 2.0;
-
-/// What a look at all cells sees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
-    /// Mean density.
-    pub mean_density: f64,
-    /// Largest speed `|j|/rho`.
-    pub max_speed: f64,
-    /// The first broken cell and what is wrong with it.
-    pub broken: Option<(usize, Symptom)>,
-}
-
-/// What a guard has seen so far.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Evidence {
-    /// Mean density at the first look, if there was one.
-    pub first_mean_density: Option<f64>,
-    /// Mean density at the last look.
-    pub last_mean_density: f64,
-    /// Largest speed at the last look.
-    pub last_max_speed: f64,
-}
-
-/// Keeps what it saw when all was well, as evidence for when it is not.
-#[derive(Clone, Debug)]
-pub struct Guard {
-    settings: GuardSettings,
-    first_mean_density: Option<f64>,
-    last_mean_density: f64,
-    last_max_speed: f64,
-}
-
-impl Guard {
-    /// A guard that has seen nothing yet.
-    pub fn new(settings: GuardSettings) -> Self {
-        Guard { settings, first_mean_density: None, last_mean_density: 1.0, last_max_speed: 0.0 }
+/// The first cause for which there is evidence, the most certain kinds first.
+pub(super) fn probable_cause(guard: &Guard, setup: &Setup, step: u64) -> Cause {
+    if guard.first_mean_density.is_none() {
+        return Cause::InitialState;
     }
-
-    /// Looks if it is time to.
-    pub fn look(&mut self, setup: &Setup, f: &[Populations], step: u64) -> Result<(), Stopped> {
-        if self.is_due(step) { self.look_now(setup, f, step) } else { Ok(()) }
+    let limit = guard.settings.max_speed;
+    if let Some((solid, speed)) = fastest_solid(setup).filter(|&(_, speed)| speed > 0.5 * limit) {
+        return Cause::SolidSpeed { solid, speed };
     }
-
-    /// Whether it is time for a look before step `step`.
-    pub fn is_due(&self, step: u64) -> bool {
-        step.is_multiple_of(self.settings.interval.max(1))
+    if let Some((face, speed)) = fastest_face(setup).filter(|&(_, speed)| speed > 0.5 * limit) {
+        return Cause::FaceSpeed { face, speed };
     }
-
-    /// Looks at every cell. Errors at the first that is broken.
-    pub fn look_now(&mut self, setup: &Setup, f: &[Populations], step: u64) -> Result<(), Stopped> {
-        let (mut mass, mut max_speed) = (0.0, 0.0_f64);
-        let mut broken = None;
-        for (cell, f) in f.iter().enumerate() {
-            mass += density(f);
-            max_speed = max_speed.max(momentum(f).norm() / density(f));
-            if let Some(symptom) = self.symptom(f) {
-                broken = Some((cell, symptom));
-                break;
-            }
-        }
-        let mean_density = mass / f.len() as f64;
-        self.judge(setup, step, &Sight { mean_density, max_speed, broken })
+    if let Some(speed) = pressure_speed(setup).filter(|&speed| speed > 0.5 * limit) {
+        return Cause::PressureDifference { speed };
     }
-
-    /// What is wrong with a cell, if anything is.
-    pub fn symptom(&self, f: &Populations) -> Option<Symptom> {
-        let rho = density(f);
-        let speed = momentum(f).norm() / rho;
-        if !(rho.is_finite() && speed.is_finite()) {
-            Some(Symptom::NotFinite)
-        } else if rho <= 0.0 {
-            Some(Symptom::NoDensity(rho))
-        } else {
-            (speed > self.settings.max_speed).then_some(Symptom::TooFast(speed))
-        }
+    let ratio = guard.density_drift();
+    if (ratio - 1.0).abs() > MAX_DENSITY_DRIFT {
+        return Cause::DensityDrift { ratio };
     }
-
-    /// Judges what a look at all cells before step `step` has seen, whoever has looked. Errors if a cell
-    /// is broken or the mean density is.
-    pub fn judge(&mut self, setup: &Setup, step: u64, sight: &Sight) -> Result<(), Stopped> {
-        if let Some((cell, symptom)) = sight.broken {
-            let cause = self.probable_cause(setup, step);
-            return Err(Stopped { step, cell: setup.domain.coordinates(cell), symptom, cause });
-        }
-        self.last_mean_density = sight.mean_density;
-        self.first_mean_density.get_or_insert(self.last_mean_density);
-        self.last_max_speed = sight.max_speed;
-        let ratio = self.density_drift();
-        if (1.0 / MAX_DENSITY_FACTOR..=MAX_DENSITY_FACTOR).contains(&ratio) {
-            return Ok(());
-        }
-        let (symptom, cause) = (Symptom::MeanDensity(ratio), self.probable_cause(setup, step));
-        Err(Stopped { step, cell: [0, 0, 0], symptom, cause })
+    // A body force is to blame if, unopposed since the last look, it explains the speed.
+    let acceleration = setup.body_force.map_or(0.0, |g| g.norm() / guard.last_mean_density);
+    let since = guard.settings.interval.min(step) as f64;
+    if acceleration > 0.0 && guard.last_max_speed + 2.0 * acceleration * since > limit {
+        return Cause::BodyForce { acceleration };
     }
-
-    /// The evidence so far, for a run that is to go on later.
-    pub fn evidence(&self) -> Evidence {
-        Evidence {
-            first_mean_density: self.first_mean_density,
-            last_mean_density: self.last_mean_density,
-            last_max_speed: self.last_max_speed,
-        }
+    let nu = viscosity(setup.collision.tau());
+    let grid_reynolds = guard.last_max_speed / nu;
+    if grid_reynolds > MAX_GRID_REYNOLDS {
+        return Cause::Unresolved { grid_reynolds };
     }
-
-    /// A guard that goes on from the evidence of an earlier one.
-    pub fn going_on_from(settings: GuardSettings, evidence: Evidence) -> Self {
-        let Evidence { first_mean_density, last_mean_density, last_max_speed } = evidence;
-        Guard { settings, first_mean_density, last_mean_density, last_max_speed }
-    }
-
-    /// Mean density at the last look over mean density at the first.
-    pub fn density_drift(&self) -> f64 {
-        self.first_mean_density.map_or(1.0, |first| self.last_mean_density / first)
-    }
-
-    /// The first cause for which there is evidence, the most certain kinds first.
-    fn probable_cause(&self, setup: &Setup, step: u64) -> Cause {
-        if self.first_mean_density.is_none() {
-            return Cause::InitialState;
-        }
-        let limit = self.settings.max_speed;
-        if let Some((solid, speed)) = fastest_solid(setup).filter(|&(_, speed)| speed > 0.5 * limit)
-        {
-            return Cause::SolidSpeed { solid, speed };
-        }
-        if let Some((face, speed)) = fastest_face(setup).filter(|&(_, speed)| speed > 0.5 * limit) {
-            return Cause::FaceSpeed { face, speed };
-        }
-        if let Some(speed) = pressure_speed(setup).filter(|&speed| speed > 0.5 * limit) {
-            return Cause::PressureDifference { speed };
-        }
-        let ratio = self.density_drift();
-        if (ratio - 1.0).abs() > MAX_DENSITY_DRIFT {
-            return Cause::DensityDrift { ratio };
-        }
-        // A body force is to blame if, unopposed since the last look, it explains the speed.
-        let acceleration = setup.body_force.map_or(0.0, |g| g.norm() / self.last_mean_density);
-        let since = self.settings.interval.min(step) as f64;
-        if acceleration > 0.0 && self.last_max_speed + 2.0 * acceleration * since > limit {
-            return Cause::BodyForce { acceleration };
-        }
-        let nu = viscosity(setup.collision.tau());
-        let grid_reynolds = self.last_max_speed / nu;
-        if grid_reynolds > MAX_GRID_REYNOLDS {
-            return Cause::Unresolved { grid_reynolds };
-        }
-        Cause::Unknown
-    }
+    Cause::Unknown
 }
 
 /// The solid whose centre or surface is fastest, and its speed.

@@ -1,0 +1,89 @@
+//! The extremes of `tests/extremes.rs` on the kernel.
+
+mod cli;
+mod common;
+mod edges;
+
+use std::process::ExitCode;
+
+use common::{Budget, trials};
+use psmrt::cases::EngineName;
+use psmrt::stability::Lab;
+
+fn lab() -> Lab {
+    Lab { gpu: Some(trials::gpu().unwrap()) }
+}
+
+fn a_box_of_one_cell_gains_what_the_force_gives() {
+    Budget::kernel(100).spend(edges::STEPS);
+    // 20 roundings of populations some 1e-5 from their weights, over a lattice velocity of 2e-4.
+    edges::one_cell("wgpu", 1e-5);
+}
+
+fn a_channel_of_one_column_is_the_channel_of_nine() {
+    Budget::kernel(2_000).spend(edges::STEPS * 80);
+    // Shaders of different boxes may round differently: 20 steps of 6e-8.
+    edges::one_column("wgpu", 1e-5);
+}
+
+fn a_box_that_is_all_solid_stops_the_fluid() {
+    Budget::kernel(2_000).spend(edges::STEPS * 64);
+    // The rounding of 19 populations that are some 1e-3 from their weights.
+    edges::all_solid("wgpu", 1e-5);
+}
+
+fn what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady() {
+    Budget::kernel(11_000).spend(edges::STEPS * 512);
+    edges::at_rest("wgpu");
+}
+
+fn a_solid_phase_without_solids_is_none() {
+    edges::no_grains(EngineName::Wgpu, &lab(), &mut Budget::kernel(3_000));
+}
+
+fn units_from_nanometres_to_metres_give_the_same_lattice_numbers() {
+    edges::any_units(EngineName::Wgpu, &lab(), &mut Budget::kernel(300_000));
+}
+
+fn runs_inside_the_frontiers_survive_and_those_outside_are_stopped() {
+    let mut budget = Budget::kernel(16_000_000);
+    for near in edges::near_frontiers() {
+        edges::assert_near(&near, EngineName::Wgpu, &lab(), &mut budget);
+    }
+}
+
+fn scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite() {
+    Budget::kernel(1_300_000).spend(200 * (4096 + 1728));
+    edges::broken_scenes("wgpu");
+}
+
+fn main() -> ExitCode {
+    trials::run(&[
+        (
+            "a_box_of_one_cell_gains_what_the_force_gives",
+            a_box_of_one_cell_gains_what_the_force_gives,
+        ),
+        (
+            "a_channel_of_one_column_is_the_channel_of_nine",
+            a_channel_of_one_column_is_the_channel_of_nine,
+        ),
+        ("a_box_that_is_all_solid_stops_the_fluid", a_box_that_is_all_solid_stops_the_fluid),
+        (
+            "what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady",
+            what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady,
+        ),
+        ("a_solid_phase_without_solids_is_none", a_solid_phase_without_solids_is_none),
+        (
+            "units_from_nanometres_to_metres_give_the_same_lattice_numbers",
+            units_from_nanometres_to_metres_give_the_same_lattice_numbers,
+        ),
+        (
+            "runs_inside_the_frontiers_survive_and_those_outside_are_stopped",
+            runs_inside_the_frontiers_survive_and_those_outside_are_stopped,
+        ),
+        (
+            "scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite",
+            scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite,
+        ),
+    ])
+}
