@@ -33,7 +33,7 @@ pub const CASE: Case = Case {
          limits found, and what a velocity inlet adds to them: through the paper's bed, 218 cells long, it needs \
          a pressure that at large tau doubles the density of the fluid.",
     ],
-    scenes: &["scene.toml", "ordered.toml", "paper.toml"],
+    scenes: &["scene.toml", "ordered.toml", "inlet.toml", "paper.toml"],
     rows: "expected.csv",
     full: "cargo run --release --example seepage_study made study.csv and stability.csv (hours; it can be cut off); the paper's own size: psmrt run golden/seepage/paper.toml --engine wgpu",
     measure,
