@@ -237,7 +237,7 @@ fn bed(side: usize, velocity: Vec3) -> Vec<Solid> {
     let place = |i: usize| {
         let (cube, n) = (i / 2, side / 16);
         let corner = [cube % n, cube / n % n, cube / n / n].map(|c| 16.0 * c as f64);
-        Vec3::from(corner).add_scalar(0.3 + if i % 2 == 0 { 0.0 } else { 8.0 })
+        Vec3::from(corner).add_scalar(0.3 + if i.is_multiple_of(2) { 0.0 } else { 8.0 })
     };
     let sphere = |i| Solid { velocity, ..Solid::fixed_sphere(place(i), radius) };
     (0..2 * (side / 16).pow(3)).map(sphere).collect()

@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn a_flow_that_creeps_meets_the_criterion_and_fails_the_claim() {
         let (quick, creeping) = (approach(0.5, 1e-4).0, approach(0.99, 1e-4).0);
-        assert!(steadiness("reference", &[quick.clone()]).unwrap().holds());
+        assert!(steadiness("reference", std::slice::from_ref(&quick)).unwrap().holds());
         assert!(!steadiness("reference", &[quick, creeping]).unwrap().holds());
         assert!(steadiness("reference", &[]).is_none());
     }

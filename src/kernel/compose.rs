@@ -11,6 +11,7 @@ use psmrt_reference::setup::Setup;
 use super::layout::{Layout, Store};
 use super::numbers::literal;
 use super::streaming::{access, faces};
+use super::table;
 
 /// Invocations of `summary`, at most: enough to keep a large device busy, few enough to read back.
 const MOST_STRANDS: u32 = 16_384;
@@ -51,6 +52,8 @@ pub(super) enum Work {
     StepListed {
         /// Whether it keeps what the loads are worked out from.
         with_loads: bool,
+        /// Whether the populations are there before their collision, as at the start of a run.
+        is_first: bool,
     },
     /// Populations read out.
     Observe,
@@ -86,7 +89,7 @@ impl Recipe<'_> {
     pub(super) fn solids_in(&self, work: Work) -> (SolidData, bool) {
         let (is_in, with_loads) = match work {
             Work::Step { with_solids, with_loads } => (with_solids, with_loads),
-            Work::StepListed { with_loads } => (true, with_loads),
+            Work::StepListed { with_loads, .. } => (true, with_loads),
             Work::Summary => (true, false),
             Work::Observe => (false, false),
         };
@@ -102,17 +105,15 @@ impl Recipe<'_> {
         let mut text = self.constants();
         let mut add = |file: &str| text += &selected(file, &flags);
         if steps || work == Work::Summary {
+            if solids == SolidData::Moving {
+                add(&table::reader(self.layout.store, 42, "records"));
+            }
             if solids != SolidData::None {
                 add(include_str!("wgsl/solid_part.wgsl"));
             }
             if steps {
-                add(match self.setup.collision {
-                    // With solids a single relaxation time is a set of equal rates.
-                    Collision::Srt { .. } if solids == SolidData::None => {
-                        include_str!("wgsl/single.wgsl")
-                    }
-                    _ => include_str!("wgsl/moments.wgsl"),
-                });
+                // A single relaxation time is a set of equal rates: a shader of its own was not faster.
+                add(include_str!("wgsl/moments.wgsl"));
             }
         }
         add(&access(&self.layout, steps));
@@ -120,6 +121,7 @@ impl Recipe<'_> {
             add(include_str!("wgsl/sums.wgsl"));
         }
         if with_loads {
+            add(&table::writer(self.layout.store, 44, "moments"));
             add(include_str!("wgsl/moments_kept.wgsl"));
         }
         if listed {
@@ -140,7 +142,9 @@ impl Recipe<'_> {
         // A workgroup waits for its slowest part, which a software adapter does at some cost: there it has
         // but one part, eight invocations.
         let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
-        format!("const LANES = {lanes}u;\n{}", include_str!("wgsl/gather.wgsl"))
+        let tables = [(0, "shares"), (4, "moments")]
+            .map(|(binding, name)| table::reader(self.layout.store, binding, name));
+        format!("const LANES = {lanes}u;\n{}{}", tables.concat(), include_str!("wgsl/gather.wgsl"))
     }
 
     /// The names of the models that are on.
@@ -154,6 +158,11 @@ impl Recipe<'_> {
         }
         if self.layout.store == Store::Textures {
             flags.push("TEXTURES");
+        }
+        match work {
+            Work::StepListed { is_first: true, .. } => flags.push("BEFORE"),
+            Work::StepListed { is_first: false, .. } => flags.push("AFTER"),
+            _ => {}
         }
         let forced = self.setup.body_force.is_some();
         if forced {

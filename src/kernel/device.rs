@@ -51,7 +51,9 @@ impl AdapterFacts {
             max_bindings: limits.max_storage_buffers_per_shader_stage,
             max_texture_bindings: limits.max_storage_textures_per_shader_stage,
             max_texture_side: limits.max_texture_dimension_3d,
-            prefers_textures: info.device_type == DeviceType::Cpu,
+            // Of Direct3D's software adapter nothing is known.
+            prefers_textures: info.device_type == DeviceType::Cpu
+                && info.backend == wgpu::Backend::Vulkan,
         }
     }
 

@@ -44,6 +44,9 @@ pub struct Kernel {
     pub(super) step: Pipeline,
     /// The same that keeps the moments of covered cells, for the loads.
     pub(super) step_with_loads: OnceCell<Pipeline>,
+    /// The first step, of populations before their collision.
+    pub(super) first_step: OnceCell<Pipeline>,
+    pub(super) first_step_with_loads: OnceCell<Pipeline>,
     pub(super) step_listed: OnceCell<Pipeline>,
     pub(super) step_listed_with_loads: OnceCell<Pipeline>,
     pub(super) observe: OnceCell<Pipeline>,
@@ -115,6 +118,8 @@ impl Kernel {
             tasks: Tasks::new(gpu)?,
             step,
             step_with_loads: OnceCell::new(),
+            first_step: OnceCell::new(),
+            first_step_with_loads: OnceCell::new(),
             step_listed: OnceCell::new(),
             step_listed_with_loads: OnceCell::new(),
             observe: OnceCell::new(),

@@ -3,9 +3,9 @@
 //! | file | what it does |
 //! |---|---|
 //! | `device.rs` | adapters, and the device opened on one |
-//! | `layout.rs`, `field.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
+//! | `layout.rs`, `field.rs`, `table.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
-//! | `wgsl/single.wgsl`, `wgsl/moments.wgsl` | collision, with one relaxation time and with many, and the solid part |
+//! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `coverage.rs`, `sphere.rs`, `solids.rs` | what the solids cover, and its tables on the device |
 //! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
@@ -36,6 +36,7 @@ mod sphere;
 mod state;
 mod steps;
 mod streaming;
+mod table;
 mod watch;
 
 pub use device::{AdapterFacts, Gpu, adapters};

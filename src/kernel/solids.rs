@@ -12,6 +12,7 @@ use super::error::KernelError;
 use super::field::Field;
 use super::layout::Layout;
 use super::numbers::count;
+use super::table::Table;
 
 /// Above this share of covered cells the solid part is worked out in every cell; below it, only in the
 /// listed ones, a second time.
@@ -38,11 +39,11 @@ pub(super) struct Solids {
     pub(super) cell_weights: Option<Field>,
     /// Numbers of the records of all cells.
     pub(super) slots: Field,
-    pub(super) records: Growing,
+    pub(super) records: Table,
     pub(super) excess: Growing,
     /// Momentum and density of each covered cell before its collision.
-    pub(super) moments: Growing,
-    pub(super) shares: Growing,
+    pub(super) moments: Table,
+    pub(super) shares: Table,
     pub(super) weights: Growing,
     pub(super) starts: Growing,
     pub(super) motions: Growing,
@@ -63,6 +64,7 @@ impl Solids {
         can_move: bool,
     ) -> Result<Self, KernelError> {
         let buffer = |label| Growing::new(gpu, label);
+        let table = |label| Table::new(gpu, layout.store, label, 4);
         let data = if can_move { SolidData::Moving } else { SolidData::Fixed };
         let weights =
             || Field::new(gpu, layout, "solid weights of cells", 1, TextureFormat::R32Float);
@@ -72,10 +74,10 @@ impl Solids {
             in_every_cell: false,
             cell_weights: if can_move { None } else { Some(weights()?) },
             slots: Field::new(gpu, layout, "records of cells", 1, TextureFormat::R32Uint)?,
-            records: buffer("records of covered cells")?,
+            records: table("records of covered cells")?,
             excess: buffer("records of cells in which solids meet")?,
-            moments: buffer("moments of covered cells")?,
-            shares: buffer("shares of solids")?,
+            moments: table("moments of covered cells")?,
+            shares: table("shares of solids")?,
             weights: buffer("weights of shares")?,
             starts: buffer("first shares of solids")?,
             motions: buffer("motion of solids")?,
@@ -111,7 +113,7 @@ impl Solids {
             self.records.fill(gpu, &tables.records)?;
             self.excess.fill(gpu, &tables.excess)?;
         }
-        self.moments.reserve(gpu, 16 * tables.records.len() as u64)?;
+        self.moments.reserve(gpu, tables.records.len())?;
         self.shares.fill(gpu, &tables.shares)?;
         self.weights.fill(gpu, &tables.weights)?;
         self.starts.fill(gpu, self.coverage.starts())?;

@@ -1,6 +1,5 @@
 //! Steps of the fluid, and the loads on the solids.
 
-use super::buffers::Growing;
 use super::compose::{ROW, Work};
 use super::error::KernelError;
 use super::field::Field;
@@ -42,7 +41,7 @@ impl Kernel {
             (&self.tasks.listed, [many, 1, 0, many]),
         ];
         let with_loads = with_loads && self.has_solids();
-        let listed = self.listed_pipeline(with_loads)?;
+        let listed = self.listed_pipeline(with_loads, true)?;
         let mut groups = Vec::new();
         for (buffer, task) in &tasks {
             self.gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(task));
@@ -123,7 +122,7 @@ impl Kernel {
         let [first, second] = copies.map(|from| self.bind_from(from, all, None, None));
         let all_groups = [first?, second?];
         let listed = if self.list_count > 0 {
-            let listed = self.listed_pipeline(with_loads)?;
+            let listed = self.listed_pipeline(with_loads, false)?;
             let task = Some(&self.tasks.listed);
             let [first, second] = copies.map(|from| self.bind_from(from, listed, task, None));
             Some((listed, [first?, second?]))
@@ -133,9 +132,14 @@ impl Kernel {
         Ok(Passes { all, all_groups, listed })
     }
 
-    fn listed_pipeline(&self, with_loads: bool) -> Result<&Pipeline, KernelError> {
-        let work = Work::StepListed { with_loads };
-        let cell = if with_loads { &self.step_listed_with_loads } else { &self.step_listed };
+    fn listed_pipeline(&self, with_loads: bool, is_first: bool) -> Result<&Pipeline, KernelError> {
+        let work = Work::StepListed { with_loads, is_first };
+        let cell = match (is_first, with_loads) {
+            (true, false) => &self.first_step,
+            (true, true) => &self.first_step_with_loads,
+            (false, false) => &self.step_listed,
+            (false, true) => &self.step_listed_with_loads,
+        };
         self.pipeline(cell, work)
     }
 
@@ -147,15 +151,15 @@ impl Kernel {
             let _ = self.gather.set(Pipeline::gather(&self.gpu, &self.recipe())?);
         }
         let Some(gather) = self.gather.get() else { return Ok(()) };
-        let buffers = [
-            &solids.shares,
-            &solids.weights,
-            &solids.starts,
-            &solids.motions,
-            &solids.moments,
-            &solids.loads,
+        let resources = [
+            solids.shares.resource(),
+            solids.weights.resource(),
+            solids.starts.resource(),
+            solids.motions.resource(),
+            solids.moments.resource(),
+            solids.loads.resource(),
         ];
-        let resources = (0..).zip(buffers.map(Growing::resource)).collect();
+        let resources = (0..).zip(resources).collect();
         let group = gather.bind(&self.gpu, resources)?;
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());

@@ -5,16 +5,12 @@
 // cells that it covers), each invocation every LANES-th, then a tree. The order of the sums depends on
 // nothing but the list, so that two runs give the same bits.
 
-// Of each share the number of its cell's record, and the bits of the arm from the solid's centre to the cell's
-@group(0) @binding(0) var<storage, read> shares: array<vec4<u32>>;
 // B_s of each share
 @group(0) @binding(1) var<storage, read> weights: array<f32>;
 // First share of each solid, and the number of all shares
 @group(0) @binding(2) var<storage, read> starts: array<u32>;
 // Velocity U and spin ω of each solid
 @group(0) @binding(3) var<storage, read> motions: array<vec4<f32>>;
-// j and ρ - 1 of each record
-@group(0) @binding(4) var<storage, read> moments: array<vec4<f32>>;
 // Force and torque of each solid
 @group(0) @binding(5) var<storage, read_write> loads: array<vec4<f32>>;
 
@@ -34,9 +30,11 @@ fn gather(
         let velocity = motions[2u * solid].xyz;
         let spin = motions[2u * solid + 1u].xyz;
         for (var number = starts[solid] + lane; number < starts[solid + 1u]; number += LANES) {
-            let share = shares[number];
+            // The number of the cell's record, and the arm from the solid's centre to the cell's
+            let share = shares_at(number);
             let arm = bitcast<vec3<f32>>(share.yzw);
-            let moment = moments[share.x];
+            // j and ρ - 1 of the cell
+            let moment = bitcast<vec4<f32>>(moments_at(share.x));
             // u_s = U + ω × r
             let u = velocity + cross(spin, arm);
             // F = Σ B_s (j - ρ u_s),  T = Σ r × F

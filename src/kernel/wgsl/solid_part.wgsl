@@ -38,8 +38,6 @@ fn slot_of(x: u32, y: u32, z: u32) -> u32 {
 //#end
 
 //#if MOVING
-// (B, Σ B_s u_s) of each record; number 0 is that of a cell without solids.
-@group(0) @binding(42) var<storage, read> records: array<vec4<f32>>;
 //#if MANY
 // Of the first listed cells, in which several solids meet: what Σ B_s u_s u_s is above that of one solid
 // with the mean velocity (xx, yy, zz, 0), (xy, yz, xz, 0).
@@ -47,12 +45,8 @@ fn slot_of(x: u32, y: u32, z: u32) -> u32 {
 //#end
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
-    let slot = slot_of(x, y, z);
-    // Invocations that skip the load cost a software adapter next to nothing.
-    var record = vec4<f32>(0.0);
-    if (slot > 0u) {
-        record = records[slot];
-    }
+    // (B, Σ B_s u_s); record number 0 is that of a cell without solids.
+    let record = bitcast<vec4<f32>>(records_at(slot_of(x, y, z)));
     let b = record.x;
     let u = record.yzw;
     // ū = Σ B_s u_s / B

@@ -10,7 +10,7 @@ fn step(@builtin(global_invocation_id) id: vec3<u32>) {
 //#end
     let h = wrapped(id.x, id.y, id.z);
 //#if LOADS
-    keep_moments(id.x, id.y, id.z, h);
+    keep_moments_of(id.x, id.y, id.z, h);
 //#end
 //#if SOLIDS
     keep(id.x, id.y, id.z, collided(h, solid_part(id.x, id.y, id.z)));

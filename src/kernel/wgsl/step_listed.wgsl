@@ -9,7 +9,7 @@ fn step_listed(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = coordinates(listed(number));
     let h = observed(at);
 //#if LOADS
-    keep_moments(at.x, at.y, at.z, h);
+    keep_moments_of(at.x, at.y, at.z, h);
 //#end
 //#if MANY
     keep(at.x, at.y, at.z, collided(h, solid_part_of_listed(number, at.x, at.y, at.z)));

@@ -29,8 +29,16 @@ fn coordinates(cell: u32) -> vec3<u32> {
 
 // The populations of a cell before their next collision.
 fn observed(at: vec3<u32>) -> array<f32, 19> {
+//#if BEFORE
+    return own(at.x, at.y, at.z);
+//#else
+//#if AFTER
+    return entering(at.x, at.y, at.z);
+//#else
     if (task.is_collided == 1u) {
         return entering(at.x, at.y, at.z);
     }
     return own(at.x, at.y, at.z);
+//#end
+//#end
 }
