@@ -1,14 +1,15 @@
 //! What each model costs, switched on alone: `cargo run --example model_cost [repeats]`.
 //!
-//! Writes `golden/cost/cost.csv` anew. Each model is timed in turn with the fluid that it is added to, a
-//! slice of some milliseconds each, many times over; the ratio is that of the two shortest times, so that
-//! what else the machine does matters little. One thread each: set RAYON_NUM_THREADS=1 and, for Mesa's
-//! software adapter, LP_NUM_THREADS=1. Bytes are what the process has grown by (Linux).
+//! Writes `golden/cost/cost.csv` anew. Each model is timed in turn with the fluid that it is added to, many
+//! times over, by the processor time of all threads of this process (Linux), so that what else the machine
+//! does matters little; the ratio is that of the two shortest times. Bytes are what a process of its own
+//! grows by when it sets a larger box up and makes two steps. One thread each: RAYON_NUM_THREADS=1 and, for
+//! Mesa's software adapter, LP_NUM_THREADS=1.
 
 use std::error::Error;
 use std::fmt::Write;
+use std::process::Command;
 use std::sync::Arc;
-use std::time::Instant;
 
 use psmrt::cases::EngineName;
 use psmrt::engine::{Engine, KernelEngine, ReferenceEngine};
@@ -28,8 +29,10 @@ use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 
 const FILE: &str = "golden/cost/cost.csv";
+/// Edge of the box that is timed, and of the one whose memory is measured: so large that the code of the
+/// shaders and what a compiler of theirs keeps is little beside it.
 const SIDE: usize = 32;
-const CELLS: f64 = (SIDE * SIDE * SIDE) as f64;
+const LARGE: usize = 96;
 const TAU: f64 = 0.8;
 
 type Failure = Box<dyn Error>;
@@ -47,66 +50,69 @@ struct Model {
 
 /// Steps of a slice: a multiple of the guard's 16 and of the record's 10.
 const SLICE: u64 = 80;
+const ENGINES: [EngineName; 2] = [EngineName::Reference, EngineName::Wgpu];
 
 fn main() -> Result<(), Failure> {
-    let repeats: u32 = std::env::args().nth(1).map_or(Ok(15), |count| count.parse())?;
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [word, engine, model] = &arguments[..] {
+        assert_eq!(word, "bytes", "usage: model_cost [repeats]");
+        return bytes_here(engine, model);
+    }
+    let repeats: u32 = arguments.first().map_or(Ok(10), |count| count.parse())?;
     let mut text = format!(
         "# What each model costs, switched on alone: cargo run --example model_cost {repeats}\n\
-         # {SIDE}^3 cells, tau = {TAU}; slices of {SLICE} steps (the oracle's of 8), each model in turn with what it is\n\
-         # added to, {repeats} times, the shortest of each; one thread (RAYON_NUM_THREADS=1, LP_NUM_THREADS=1), on two\n\
-         # shared cores; load of the machine at the start and the end in the last lines. guard: off but in its own row\n\
-         # and in `records`. Against: bare fluid with SRT or MRT, or the row of that name.\n\
-         # bytes_per_cell: growth of the process's memory over cells; on a software adapter that is the device's too.\n\
+         # {SIDE}^3 cells, tau = {TAU}; slices of {SLICE} steps, each model in turn with what it is added to,\n\
+         # {repeats} times, the shortest of each by the processor time of the process; one thread\n\
+         # (RAYON_NUM_THREADS=1, LP_NUM_THREADS=1) on two shared cores; the load at the start and the end stands in\n\
+         # the last line. The guard is off but in its own row and in that of the record. against: the row that a\n\
+         # model is added to. bytes_per_cell: growth of a process with {LARGE}^3 cells over their number; on a\n\
+         # software adapter that is the device's memory too.\n\
          engine,model,against,time_ratio,ns_per_cell_update,bytes_per_cell\n"
     );
     let load = || std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     let first_load = load();
     let gpu = Gpu::open(None)?;
-    for engine in [EngineName::Reference, EngineName::Wgpu] {
-        let models = models()?;
+    let cells = (SIDE * SIDE * SIDE) as f64;
+    for engine in ENGINES {
+        let models = models(SIDE)?;
         for model in &models {
             let base = &models[model.against];
-            let start = |model: &Model| start(engine, &gpu, model);
-            let before = memory();
-            let mut this = start(model)?;
-            let mut other = None;
-            time(this.as_mut(), model, 16)?;
-            let bytes = memory().zip(before).map(|(after, before)| (after - before) / CELLS);
-            let steps = if engine == EngineName::Reference { 8 } else { SLICE };
+            let mut this = start(engine, &gpu, model)?;
+            let mut other = start(engine, &gpu, base)?;
             let (mut mine, mut theirs) = (f64::INFINITY, f64::INFINITY);
-            for _ in 0..repeats {
-                let other = match &mut other {
-                    Some(other) => other,
-                    none => none.insert(start(base)?),
-                };
-                theirs = theirs.min(time(other.as_mut(), base, steps)?);
-                mine = mine.min(time(this.as_mut(), model, steps)?);
+            // The first pair warms up: shaders compile at their first use.
+            for number in 0..=repeats {
+                let pair = [time(other.as_mut(), base)?, time(this.as_mut(), model)?];
+                if number > 0 {
+                    theirs = theirs.min(pair[0]);
+                    mine = mine.min(pair[1]);
+                }
             }
-            let bytes = bytes.map_or("-".to_owned(), |bytes| format!("{bytes:.0}"));
             let row = format!(
-                "{},{},{},{:.3},{:.2},{bytes}",
+                "{},{},{},{:.3},{:.2},{}",
                 engine.word(),
                 model.name,
                 base.name,
                 mine / theirs,
-                mine / (steps as f64 * CELLS) * 1e9,
+                mine / (SLICE as f64 * cells) * 1e9,
+                bytes(engine, model)?
             );
             println!("{row}");
             writeln!(text, "{row}")?;
         }
     }
     writeln!(text, "# adapter: {}", gpu.facts().name)?;
-    writeln!(text, "# load at the start {} at the end {}", first_load.trim(), load().trim())?;
+    writeln!(text, "# load at the start {}, at the end {}", first_load.trim(), load().trim())?;
     std::fs::create_dir_all("golden/cost")?;
     std::fs::write(FILE, text)?;
     Ok(())
 }
 
-/// Seconds that `steps` steps take, with what is recorded.
-fn time(engine: &mut dyn Engine, model: &Model, steps: u64) -> Result<f64, Failure> {
-    let start = Instant::now();
-    let batch = model.record_every.unwrap_or(steps).min(steps);
-    for _ in 0..steps / batch {
+/// Seconds of the processor that a slice takes, with what is recorded.
+fn time(engine: &mut dyn Engine, model: &Model) -> Result<f64, Failure> {
+    let start = processor_seconds()?;
+    let batch = model.record_every.unwrap_or(SLICE);
+    for _ in 0..SLICE / batch {
         engine.step(batch)?;
         if model.record_every.is_some() {
             engine.look()?;
@@ -115,7 +121,42 @@ fn time(engine: &mut dyn Engine, model: &Model, steps: u64) -> Result<f64, Failu
     }
     // A device may still be at work: what it is asked for now waits for it.
     engine.cells(&[0]);
-    Ok(start.elapsed().as_secs_f64())
+    Ok(processor_seconds()? - start)
+}
+
+/// Time that the threads of this process have run (proc(5), `schedstat`).
+fn processor_seconds() -> Result<f64, Failure> {
+    let mut nanoseconds = 0.0;
+    for thread in std::fs::read_dir("/proc/self/task")? {
+        let text = std::fs::read_to_string(thread?.path().join("schedstat"))?;
+        nanoseconds += text.split_whitespace().next().unwrap_or("0").parse::<f64>()?;
+    }
+    Ok(nanoseconds / 1e9)
+}
+
+/// Bytes per cell of a model, found by a process of its own.
+fn bytes(engine: EngineName, model: &Model) -> Result<String, Failure> {
+    let this = std::env::current_exe()?;
+    let output = Command::new(this).args(["bytes", engine.word(), model.name]).output()?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
+    }
+    Ok(String::from_utf8(output.stdout)?.trim().to_owned())
+}
+
+/// Prints by how many bytes per cell this process grows with a model.
+fn bytes_here(engine: &str, model: &str) -> Result<(), Failure> {
+    let engine =
+        ENGINES.into_iter().find(|known| known.word() == engine).ok_or("no such engine")?;
+    let models = models(LARGE)?;
+    let model = models.iter().find(|known| known.name == model).ok_or("no such model")?;
+    let gpu = Gpu::open(None)?;
+    let before = memory()?;
+    let mut made = start(engine, &gpu, model)?;
+    made.step(2)?;
+    made.box_means();
+    println!("{:.0}", (memory()? - before) / (LARGE * LARGE * LARGE) as f64);
+    Ok(())
 }
 
 fn start(engine: EngineName, gpu: &Arc<Gpu>, model: &Model) -> Result<Box<dyn Engine>, Failure> {
@@ -127,21 +168,21 @@ fn start(engine: EngineName, gpu: &Arc<Gpu>, model: &Model) -> Result<Box<dyn En
     })
 }
 
-/// Bytes of the process in memory.
-fn memory() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/statm").ok()?;
-    let pages: f64 = text.split_whitespace().nth(1)?.parse().ok()?;
-    Some(4096.0 * pages)
+/// Bytes of this process in memory (proc(5), `statm`).
+fn memory() -> Result<f64, Failure> {
+    let text = std::fs::read_to_string("/proc/self/statm")?;
+    let pages: f64 = text.split_whitespace().nth(1).unwrap_or("0").parse()?;
+    Ok(4096.0 * pages)
 }
 
-/// The models. The first two are what others are added to.
-fn models() -> Result<Vec<Model>, Failure> {
+/// The models in a box of `side` cells. The first two are what others are added to.
+fn models(side: usize) -> Result<Vec<Model>, Failure> {
     let (bare_srt, bare) = (0, 1);
     let srt = Collision::Srt { tau: TAU };
     let mrt = Collision::Mrt { rates: Rates::dhumieres(TAU)? };
     let off = GuardSettings { interval: u64::MAX, ..GuardSettings::default() };
     let fluid = |collision, faces| -> Result<Setup, Failure> {
-        let setup = Setup::fluid(Domain::new([SIDE; 3], faces)?, collision);
+        let setup = Setup::fluid(Domain::new([side; 3], faces)?, collision);
         Ok(Setup { guard: off, ..setup })
     };
     let plain = || fluid(mrt, Faces::PERIODIC);
@@ -159,8 +200,12 @@ fn models() -> Result<Vec<Model>, Failure> {
         model("two walls", bare, fluid(mrt, walls)?),
         model("inlet and pressure", bare, fluid(mrt, through)?),
         model("two fixed grains", bare, plain()?.with_solids(solids(few()))),
-        model("bed of fixed grains", bare, plain()?.with_solids(solids(bed(still)))),
-        model("bed that moves", bare, plain()?.with_solids(solids(bed(Vec3::new(1e-3, 0.0, 0.0))))),
+        model("bed of fixed grains", bare, plain()?.with_solids(solids(bed(side, still)))),
+        model(
+            "bed that moves",
+            bare,
+            plain()?.with_solids(solids(bed(side, Vec3::new(1e-3, 0.0, 0.0)))),
+        ),
         model("guard", bare, Setup { guard: GuardSettings::default(), ..plain()? }),
     ];
     let recorded = Setup { guard: GuardSettings::default(), ..plain()? };
@@ -173,7 +218,7 @@ fn models() -> Result<Vec<Model>, Failure> {
         ("free grains that touch", 9.99, false),
         ("free grains apart with lubrication", 10.5, true),
     ] {
-        let free = free(pitch, lubricated)?;
+        let free = free(side, pitch, lubricated)?;
         let as_solid = |grain: &Grain| Solid::fixed_sphere(grain.position, grain.radius);
         let setup = plain()?.with_solids(solids(free.grains.iter().map(as_solid).collect()));
         models.push(Model { free: Some(free), ..model(name, bare, setup) });
@@ -187,19 +232,19 @@ fn few() -> Vec<Solid> {
 }
 
 /// A body-centred array of pitch 16 that fills 0.6 of the box.
-fn bed(velocity: Vec3) -> Vec<Solid> {
+fn bed(side: usize, velocity: Vec3) -> Vec<Solid> {
     let radius = 16.0 * (0.9_f64 / (4.0 * std::f64::consts::PI)).cbrt();
     let place = |i: usize| {
-        let cube = i / 2;
-        let corner = [cube % 2, cube / 2 % 2, cube / 4].map(|c| 16.0 * c as f64);
+        let (cube, n) = (i / 2, side / 16);
+        let corner = [cube % n, cube / n % n, cube / n / n].map(|c| 16.0 * c as f64);
         Vec3::from(corner).add_scalar(0.3 + if i.is_multiple_of(2) { 0.0 } else { 8.0 })
     };
     let sphere = |i| Solid { velocity, ..Solid::fixed_sphere(place(i), radius) };
-    (0..16).map(sphere).collect()
+    (0..2 * (side / 16).pow(3)).map(sphere).collect()
 }
 
 /// Eight free grains of 10 cells in a cube of that pitch, moving slowly through each other's fluid.
-fn free(pitch: f64, lubricated: bool) -> Result<FreePart, Failure> {
+fn free(side: usize, pitch: f64, lubricated: bool) -> Result<FreePart, Failure> {
     let radius = 5.0;
     let place = |i: usize| Vec3::from([i % 2, i / 2 % 2, i / 4].map(|c| 6.3 + pitch * c as f64));
     let grains: Vec<Grain> = (0..8)
@@ -212,7 +257,7 @@ fn free(pitch: f64, lubricated: bool) -> Result<FreePart, Failure> {
         cutoff_gap: 1.0,
         smallest_gap: 0.005,
     });
-    let sides = PeriodicBox::all([SIDE as f64; 3]);
+    let sides = PeriodicBox::all([side as f64; 3]);
     Ok(FreePart {
         setup: GrainSetup { sides, lubrication, ..GrainSetup::new(law) },
         grains,

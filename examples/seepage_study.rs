@@ -79,16 +79,21 @@ fn runs() -> Vec<Bed> {
         }
         runs
     };
-    runs.extend(grids(&[0.55, 0.52, 0.51], &[12, 16, 24], &[16, 24]));
+    runs.extend(grids(&[0.55], &[12, 16, 24], &[16, 24]));
+    runs.extend(grids(&[0.52, 0.51], &[12, 16, 24], &[16]));
     // Other beds.
-    for reynolds in [1.0, 10.0, 30.0] {
-        for seed in 2..=5 {
-            let packing = Packing::Random { side: 3.0, count: 31, seed };
-            runs.push(Bed { packing, reynolds, ..BED });
-        }
-    }
-    runs.extend(grids(&[0.55, 0.52], &[32], &[32]));
+    let beds = |seeds: std::ops::RangeInclusive<u32>, numbers: &[f64]| -> Vec<Bed> {
+        let packings = seeds.map(|seed| Packing::Random { side: 3.0, count: 31, seed });
+        let one = |packing| numbers.iter().map(move |&reynolds| Bed { packing, reynolds, ..BED });
+        packings.flat_map(one).collect()
+    };
+    runs.extend(beds(2..=4, &[1.0, 30.0]));
+    runs.extend(grids(&[0.52, 0.51], &[], &[24]));
+    runs.extend(beds(2..=4, &[10.0]));
+    runs.extend(grids(&[0.55], &[32], &[32]));
+    runs.push(Bed { reynolds: 30.0, side_cells: 36, ..BED });
     runs.push(Bed { tau: 0.505, ..BED });
+    runs.extend(beds(5..=5, &[1.0, 10.0, 30.0]));
     // Larger ones.
     for reynolds in [1.0, 30.0] {
         for (side, count, side_cells) in [(4.0, 73, 32), (5.0, 143, 40)] {
@@ -97,9 +102,8 @@ fn runs() -> Vec<Bed> {
         }
     }
     // Finer grids.
-    for reynolds in [30.0, 1.0] {
-        runs.push(Bed { reynolds, side_cells: 36, ..BED });
-    }
+    runs.push(Bed { side_cells: 36, ..BED });
+    runs.extend(grids(&[0.52], &[32], &[32]));
     runs.extend(grids(&[0.505], &[12, 16, 24], &[16, 24]));
     runs.extend(grids(&[0.51], &[32], &[32]));
     runs.extend(grids(&[0.55], &[], &[48]));
@@ -132,12 +136,6 @@ fn stability() -> Result<(), Box<dyn Error>> {
                     climb(&mut kernel, bed)?;
                 }
             }
-        }
-    }
-    // The paper's resolution.
-    for tau in [0.51, 0.505] {
-        for collision in ["srt", "mrt"] {
-            climb(&mut oracle, Bed { collision, tau, side_cells: 32, ..SMALL })?;
         }
     }
     Ok(())

@@ -29,9 +29,6 @@ const STREAMS: [(f64, f64); 7] = [
     (150.0, 0.51),
 ];
 
-/// Widths in diameters besides the paper's own, 5.
-const WIDTHS: [f64; 3] = [4.0, 6.0, 8.0];
-
 fn main() -> Result<(), Box<dyn Error>> {
     let mut bench = Bench::new(Path::new("golden"), None, |_| {});
     for stream in runs() {
@@ -61,27 +58,29 @@ fn runs() -> Vec<Stream> {
     runs.extend(all(6, "srt", &STREAMS[..5]));
     runs.extend(all(8, "mrt", &[STREAMS[0], STREAMS[1], STREAMS[2], STREAMS[5]]));
     // How much the box matters, at the relaxation times of `STREAMS`.
-    let varied = |(reynolds, tau): (f64, f64), widths: &[f64]| -> Vec<Stream> {
-        let one = |&width| Stream { reynolds, tau, width, tolerance: 1e-4, ..paper };
+    let varied = |(reynolds, tau): (f64, f64), cells: u32, widths: &[f64]| -> Vec<Stream> {
+        let one = |&width| Stream { reynolds, tau, cells, width, tolerance: 1e-4, ..paper };
         widths.iter().map(one).collect()
     };
-    runs.extend(varied(STREAMS[2], &WIDTHS));
-    runs.extend(varied(STREAMS[5], &WIDTHS));
-    runs.extend(all(12, "mrt", &STREAMS[2..3]));
-    runs.extend(varied(STREAMS[0], &WIDTHS[..2]));
-    runs.extend(varied(STREAMS[1], &WIDTHS));
+    for stream in [STREAMS[2], STREAMS[0], STREAMS[1]] {
+        runs.extend(varied(stream, 4, &[4.0, 6.0, 8.0]));
+    }
+    runs.extend(varied(STREAMS[5], 6, &[4.0, 6.0]));
     // How much the relaxation time matters.
-    for tau in [1.5, 1.0, 0.6] {
-        runs.push(Stream { tau, ..paper });
+    for tau in [1.5, 1.0, 0.8, 0.7, 0.6, 0.55] {
+        for collision in ["mrt", "srt"] {
+            runs.push(Stream { tau, collision, cells: 4, ..paper });
+        }
     }
-    runs.extend(all(12, "mrt", &STREAMS[5..6]));
-    runs.extend(varied(STREAMS[0], &WIDTHS[2..]));
-    for (tau, collision) in [(0.8, "mrt"), (0.55, "mrt"), (1.5, "srt"), (1.0, "srt"), (0.6, "srt")]
-    {
-        runs.push(Stream { tau, collision, ..paper });
+    runs.extend(varied(STREAMS[5], 6, &[8.0]));
+    for stream in [STREAMS[1], STREAMS[2], STREAMS[0]] {
+        runs.extend(varied(stream, 4, &[10.0]));
     }
+    runs.extend(varied(STREAMS[2], 6, &[4.0, 6.0]));
+    // Finer grids.
+    runs.extend(all(12, "mrt", &[STREAMS[2], STREAMS[5], STREAMS[0]]));
     runs.extend(all(8, "mrt", &[STREAMS[6], STREAMS[3], STREAMS[4]]));
-    runs.extend(all(12, "mrt", &[STREAMS[0], STREAMS[6], STREAMS[1], STREAMS[4]]));
+    runs.extend(all(12, "mrt", &[STREAMS[6], STREAMS[1], STREAMS[4]]));
     runs.extend(all(16, "mrt", &[STREAMS[5], STREAMS[2]]));
     runs.extend(all(8, "srt", &STREAMS[2..]));
     runs.extend(all(6, "srt", &STREAMS[5..]));

@@ -81,6 +81,11 @@ fn committed_suspensions_hold_their_claims() {
 }
 
 #[test]
+fn committed_sweep_of_speed_and_accuracy_holds_its_claims() {
+    holds("tradeoff", &mut Budget::oracle(0));
+}
+
+#[test]
 fn committed_confusion_table_holds_its_claims() {
     holds("conformance", &mut Budget::oracle(0));
 }

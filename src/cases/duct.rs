@@ -76,8 +76,9 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             claims.push(Claim {
                 what: format!("{engine}: order of the error of the mean velocity, {rates}"),
                 measured: -PowerLaw::fit(&sizes)?.order,
-                allowed: 1.9..=2.1,
-                why: "second order; at 8 cells the next order is worth some percent of it",
+                allowed: 1.8..=2.1,
+                why: "second order; at 8 cells the fourth-order term turns the slope by up to 0.15 (tests/duct.rs, whose \
+                      finer grids come within 0.06)",
             });
             let [.., coarse, fine] = errors[..] else {
                 return Err(CaseError::Table("the duct needs two grids".to_owned()));

@@ -24,8 +24,8 @@ pub const CASE: Case = Case {
          et al. (2007) and Tang et al. (2015). Real beds scatter about any of them by 10 to 15 %. The one exact \
          value is that of the ordered bed (face-centred cubic at the same porosity of 0.4).",
         "What the paper leaves open is chosen so: tau = 0.51, since the spheres of partially saturated cells leak, \
-         the more the larger tau; 8 cells per diameter in the quick rows (9 spheres) and 8 to 24 in the study \
-         (study.csv, up to 143 spheres), 16 in the paper; Noble and Torczynski's weight, exact solid fractions, \
+         the more the larger tau; 8 cells per diameter in the quick rows (9 spheres) and in the study (study.csv, \
+         31 spheres), which has 8 to 16 of the ordered bed, 16 in the paper; Noble and Torczynski's weight, exact solid fractions, \
          MRT with d'Humieres' rates unless SRT is named. Steady: U changes by less than 3e-4 of itself (study: 1e-4) \
          in three rows in a row, a row being a fifth of the time d2/(4 pi2 nu). The force, not tau, sets Re.",
         "How fast a flow stays stable (stability.csv): the force is doubled until the guard stops the run. The \

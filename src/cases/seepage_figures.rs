@@ -3,7 +3,7 @@
 use psmrt_report::{Axis, Figure, Series};
 
 use super::seepage::over_law;
-use super::seepage_study::{grids, limit, steady, taus};
+use super::seepage_study::{grids, largest_stable, steady, taus};
 use super::{BED_LAWS, CaseError, Table};
 
 /// Solid fraction at which the laws are drawn.
@@ -46,7 +46,9 @@ fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
         let points = points.iter().map(|&(re, psi, _)| (re, psi)).collect();
         figure = figure.with(Series::points(label.clone(), points).with_colour(BED_LAWS.len() + i));
     }
-    figure = figure.with_panel(Axis::linear("psi over Beetstra et al.").range(0.6, 1.4));
+    figure = figure.with_panel(
+        Axis::linear("psi over Beetstra et al.").range(0.6, 1.4).ticks(&[0.6, 0.8, 1.0, 1.2, 1.4]),
+    );
     let beetstra = law(BED_LAWS[3].psi_re);
     for (i, one) in BED_LAWS.iter().enumerate() {
         let ratio = |((re, value), (_, of)): (&(f64, f64), &(f64, f64))| (*re, value / of);
@@ -75,7 +77,7 @@ fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
     }
     let mrt = steady(study, "mrt")?.with(&[("tau", "0.51")])?;
     for (packing, cells, label) in [
-        ("random 3", "8.0000", "31 spheres, 8 cells, five beds"),
+        ("random 3", "8.0000", "31 spheres, 8 cells"),
         ("random 3", "12.0000", "31 spheres, 12 cells"),
         ("random 4", "8.0000", "73 spheres, 8 cells"),
         ("random 5", "8.0000", "143 spheres, 8 cells"),
@@ -99,25 +101,29 @@ fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
 
 /// The ordered bed and nine spheres on several grids.
 fn grid_figure(study: &Table, ordered: f64) -> Result<Figure, CaseError> {
-    let x = || Axis::linear("(cell size/diameter)²").range(0.0, 0.0165);
     let mut figure = Figure::new(
         "Resistance of beds against resolution, Re about 1",
-        x(),
+        Axis::linear("(cell size/diameter)²").range(0.0, 0.0165),
         Axis::linear("ordered bed: psi over the exact one").range(0.5, 1.3),
     );
-    const TAUS: [&str; 4] = ["0.505", "0.51", "0.52", "0.55"];
-    let series = |packing: &str, tau: &str, unit: f64| {
-        let points = grids(study, packing, tau)?;
-        let points = points.into_iter().map(|(d, psi_re)| (d.powi(-2), psi_re / unit)).collect();
-        Ok::<_, CaseError>(Series::line_points(format!("tau {tau}"), points))
-    };
-    for (colour, tau) in TAUS.into_iter().enumerate() {
-        figure = figure.with(series("fcc", tau, ordered)?.with_colour(colour));
+    let taus = ["0.505", "0.51", "0.52", "0.55"];
+    let mut all = Vec::new();
+    for (packing, unit) in [("fcc", ordered), ("random 2", 1.0)] {
+        let mut series = Vec::new();
+        for (colour, tau) in taus.into_iter().enumerate() {
+            let points = grids(study, packing, tau)?.into_iter();
+            let points: Vec<_> = points.map(|(d, psi_re)| (d.powi(-2), psi_re / unit)).collect();
+            let one = Series::line_points(format!("tau {tau}"), points).with_colour(colour);
+            series.push(one);
+        }
+        // Not all relaxation times have fine grids of both beds.
+        series.retain(|one| !one.points.is_empty());
+        all.push(series);
     }
+    let random = all.pop().unwrap_or_default();
+    figure = all.into_iter().flatten().fold(figure, Figure::with);
     figure = figure.with_panel(Axis::linear("nine spheres: psi Re").range(100.0, 240.0));
-    for (colour, tau) in TAUS.into_iter().enumerate() {
-        figure = figure.with(series("random 2", tau, 1.0)?.with_colour(colour));
-    }
+    figure = random.into_iter().fold(figure, Figure::with);
     Ok(figure
         .note("8 cells per diameter are at 0.0156, 16 at 0.0039; a straight line is second order"))
 }
@@ -149,46 +155,55 @@ fn tau_figure(study: &Table) -> Result<Figure, CaseError> {
 fn stability_figure(stability: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
         "Largest stable Re in a bed of nine spheres at 8 cells per diameter",
-        Axis::log("tau - 1/2").range(0.0002, 0.2),
-        Axis::log("Re = U d/(nu (1 - porosity))").range(0.5, 1000.0),
+        Axis::log("tau - 1/2").range(0.0008, 0.2),
+        Axis::log("Re = U d/(nu (1 - porosity))").range(1.0, 500.0),
     );
-    for (engine, collision, weighting, label) in [
-        ("reference", "srt", "noble_torczynski", "SRT, B(epsilon, tau)"),
-        ("reference", "mrt", "noble_torczynski", "MRT, B(epsilon, tau)"),
-        ("reference", "magic", "noble_torczynski", "Lambda = 3/16, B(epsilon, tau)"),
-        ("reference", "srt", "solid_fraction", "SRT, B = epsilon"),
-        ("reference", "mrt", "solid_fraction", "MRT, B = epsilon"),
-        ("wgpu", "srt", "noble_torczynski", "SRT, B(epsilon, tau), single precision"),
-        ("wgpu", "mrt", "noble_torczynski", "MRT, B(epsilon, tau), single precision"),
+    for (collision, weighting, label) in [
+        ("srt", "noble_torczynski", "SRT, B(epsilon, tau)"),
+        ("mrt", "noble_torczynski", "MRT, B(epsilon, tau)"),
+        ("magic", "noble_torczynski", "Lambda = 3/16, B(epsilon, tau)"),
+        ("srt", "solid_fraction", "SRT, B = epsilon"),
+        ("mrt", "solid_fraction", "MRT, B = epsilon"),
     ] {
-        let wanted = [
-            ("engine", engine),
-            ("collision", collision),
-            ("weighting", weighting),
-            ("cells_per_diameter", "8.0000"),
-        ];
-        let own = stability.with(&wanted)?;
-        let mut points = Vec::new();
-        for tau in own.values("tau")? {
-            let limit = limit(&own, &[("tau", &tau)])?;
-            let above: f64 = tau.parse().map_or(f64::NAN, |tau: f64| tau - 0.5);
-            if limit.stable > 0.0 {
-                points.push((above, limit.stable));
-            }
-        }
-        if !points.is_empty() {
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            figure = figure.with(Series::line_points(label, points));
+        let points = limits(stability, "reference", collision, weighting)?;
+        figure = figure.with(Series::line_points(label, points));
+    }
+    let mut single = limits(stability, "wgpu", "srt", "noble_torczynski")?;
+    single.extend(limits(stability, "wgpu", "mrt", "noble_torczynski")?);
+    let across = |y: f64| vec![(0.0008, y), (0.2, y)];
+    let inlet = (0..=40).map(|i| 0.0008 * 250.0_f64.powf(f64::from(i) / 40.0));
+    let inlet = inlet.map(|above| (above, doubling(above))).filter(|p| p.1 < 500.0).collect();
+    Ok(figure
+        .with(Series::points("SRT and MRT, single precision", single))
+        .with(Series::dashed("through the paper's inlet", inlet).with_colour(6))
+        .with(Series::dashed("the paper, MRT: 30", across(30.0)).with_colour(1))
+        .with(Series::dashed("the paper, SRT: 2", across(2.0)).with_colour(0))
+        .note("points: the next run, with twice the force, was stopped, or Re was past 200 already")
+        .note("through the paper's inlet: where the pressure under its bed, 218 cells long, doubles the density"))
+}
+
+/// The largest stable Re against tau - 1/2.
+fn limits(
+    stability: &Table,
+    engine: &str,
+    collision: &str,
+    weighting: &str,
+) -> Result<Vec<(f64, f64)>, CaseError> {
+    let own = stability.with(&[
+        ("engine", engine),
+        ("collision", collision),
+        ("weighting", weighting),
+        ("cells_per_diameter", "8.0000"),
+    ])?;
+    let mut points = Vec::new();
+    for tau in own.values("tau")? {
+        let stable = largest_stable(&own, &[("tau", &tau)])?;
+        if stable > 0.0 {
+            points.push((tau.parse().map_or(f64::NAN, |tau: f64| tau - 0.5), stable));
         }
     }
-    let across = |y: f64| vec![(0.0002, y), (0.2, y)];
-    let inlet = (0..=40).map(|i| 0.01 * 20.0_f64.powf(f64::from(i) / 40.0));
-    let inlet = inlet.map(|above| (above, doubling(above))).filter(|p| p.1 < 1000.0).collect();
-    Ok(figure
-        .with(Series::line("inlet into the paper's bed: density doubles", inlet))
-        .with(Series::dashed("the paper, MRT: 30", across(30.0)))
-        .with(Series::dashed("the paper, SRT: 2", across(2.0)))
-        .note("the next run, with twice the force, was stopped, or Re was past 200 already"))
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    Ok(points)
 }
 
 /// Re at which the pressure that drives water through 218 cells of the paper's bed (16 cells per diameter,

@@ -3,7 +3,7 @@
 use psmrt_report::{Axis, Figure, Series};
 
 use super::sphere_drag::Known;
-use super::sphere_drag_study::{self, Blockage, VARIED};
+use super::sphere_drag_study::{self, Blockage, VARIED, Varied};
 use super::{CaseError, Table};
 
 /// All of them: `rows` of the quick form, and those of the study.
@@ -57,7 +57,11 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
     for (label, points) in &found {
         figure = figure.with(Series::points(label.clone(), points.clone()));
     }
-    figure = figure.with_panel(Axis::linear("C_D over open water").range(0.85, 1.45));
+    figure = figure.with_panel(
+        Axis::linear("C_D over open water")
+            .range(0.85, 1.45)
+            .ticks(&[0.9, 1.0, 1.1, 1.2, 1.3, 1.4]),
+    );
     figure = figure
         .with(Series::line("open water, computed", ratio(&open)))
         .with(Series::dashed("White", ratio(&white)))
@@ -66,14 +70,16 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
         figure = figure.with(Series::points(label.clone(), ratio(points)));
     }
     let mut boxed = Vec::new();
-    for (reynolds, tau) in VARIED {
-        if let Some(law) = Blockage::of(&sphere_drag_study::widths(study, reynolds, tau)?) {
-            boxed.push((reynolds.parse().unwrap_or(f64::NAN), law.at(5.0)));
+    for varied in VARIED {
+        if let Some(law) = Blockage::of(&varied.widths(study)?) {
+            let re = varied.reynolds.parse().unwrap_or(f64::NAN);
+            let open = known.open(varied.reynolds)?;
+            boxed.push((re, 1.0 / (1.0 - open * law.inverse(5.0))));
         }
     }
-    Ok(figure
-        .with(Series::line_points("what the box adds", boxed))
-        .note("box 5 x 10 x 5 diameters, sides free of friction; what the box adds: from its widths, 6 cells"))
+    Ok(figure.with(Series::line_points("what the box adds", boxed)).note(
+        "box 5 x 10 x 5 diameters, sides free of friction; what the box adds: found from its width",
+    ))
 }
 
 /// What the grid does, at each Reynolds number.
@@ -83,9 +89,10 @@ fn grid_figure(known: &Known, study: &Table) -> Result<Figure, CaseError> {
         Axis::linear("(cell size/diameter)²").range(0.0, 0.065),
         Axis::linear("C_D over open water").range(0.95, 1.45),
     );
-    for (reynolds, tau) in VARIED {
+    for varied in VARIED {
+        let Varied { reynolds, tau, .. } = varied;
         let open = known.open(reynolds)?;
-        let grids = sphere_drag_study::grids(study, reynolds, tau)?;
+        let grids = varied.grids(study)?;
         let points = grids.iter().map(|&(d, c)| (d.powi(-2), c / open)).collect();
         figure = figure.with(Series::line_points(format!("Re {reynolds}, tau {tau}"), points));
     }
@@ -98,42 +105,49 @@ fn grid_figure(known: &Known, study: &Table) -> Result<Figure, CaseError> {
 /// What the box does.
 fn box_figure(known: &Known, study: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
-        "Drag against the width of the box, 6 cells per diameter",
+        "Drag against the width of the box",
         Axis::linear("diameter/width").range(0.0, 0.26),
         Axis::linear("C_D over that extrapolated to open water").range(0.95, 1.6),
     );
-    for (colour, (reynolds, tau)) in VARIED.into_iter().enumerate() {
-        let widths = sphere_drag_study::widths(study, reynolds, tau)?;
+    for (colour, varied) in VARIED.into_iter().enumerate() {
+        let widths = varied.widths(study)?;
         let Some(law) = Blockage::of(&widths) else { continue };
         let points = widths.iter().map(|&(w, c)| (1.0 / w, c / law.open)).collect();
         let curve = (1..=52).map(|i| f64::from(i) / 200.0).map(|x| (x, law.at(1.0 / x))).collect();
-        figure =
-            figure.with(Series::points(format!("Re {reynolds}"), points).with_colour(colour)).with(
+        figure = figure
+            .with(
+                Series::points(format!("Re {}, {} cells", varied.reynolds, varied.cells), points)
+                    .with_colour(colour),
+            )
+            .with(
                 Series::line(format!("1/(1 - b (d/W)^{:.2})", law.law.1), curve)
                     .with_colour(colour),
             );
     }
-    let exact = known.duct / (known.open("0.1")? * 0.1 / 24.0);
-    Ok(figure.with(Series::points("Re 0.1, exact", vec![(0.2, exact)])))
+    // K = 1 in open water.
+    Ok(figure.with(Series::points("Re -> 0, exact", vec![(0.2, known.duct)])))
 }
 
 /// What the relaxation time does at Re = 0.1.
 fn tau_figure(known: &Known, study: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
-        "Re 0.1: error of the drag against the relaxation time, 6 cells per diameter",
+        "Re 0.1: error of the drag against the relaxation time, 4 cells per diameter",
         Axis::linear("tau").range(0.5, 1.55),
-        Axis::linear("error of the drag").range(-0.3, 0.02),
+        Axis::linear("error of the drag").range(-0.5, 0.02),
     );
     for (word, name) in [("mrt", "MRT"), ("srt", "SRT")] {
         let own = study.with(&[("outcome", "steady"), ("collision", word), ("Re", "0.1")])?;
-        let own = own.with(&[("cells_per_diameter", "6"), ("width_d", "5")])?;
+        let own = own.with(&[("cells_per_diameter", "4"), ("width_d", "5")])?;
         let mut points = own.points("tau", "K")?;
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let points = points.into_iter().map(|(tau, k)| (tau, k / known.duct - 1.0)).collect();
-        figure = figure.with(Series::line_points(name, points));
+        let error = |(tau, k): (f64, f64)| (tau, k / known.duct - 1.0);
+        let points: Vec<_> = points.into_iter().map(error).collect();
+        if !points.is_empty() {
+            figure = figure.with(Series::line_points(name, points));
+        }
     }
     // x = 2.25 ν K/a², the drag errs by -x/(1 + x): reference/ERRATA.md
-    let leak = |tau: f64| 2.25 * (tau - 0.5) / 3.0 * known.duct / 9.0;
+    let leak = |tau: f64| 2.25 * (tau - 0.5) / 3.0 * known.duct / 4.0;
     let curve = (0..=105).map(|i| 0.5 + f64::from(i) / 100.0);
     let curve = curve.map(|tau| (tau, -leak(tau) / (1.0 + leak(tau)))).collect();
     Ok(figure

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use psmrt_report::write_svg;
+use serde_json::json;
 
 use super::execute::say;
 use super::{CommandError, write};
@@ -44,7 +45,7 @@ pub struct TradeoffRequest {
 }
 
 /// Makes the runs that are not there yet. Errors if one cannot be made.
-pub fn tradeoff(request: &TradeoffRequest, _json: bool) -> Result<(), CommandError> {
+pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), CommandError> {
     let wanted = wanted(request)?;
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
     let mut runner = Runner::new(&request.golden, gpu.clone())?;
@@ -63,15 +64,27 @@ pub fn tradeoff(request: &TradeoffRequest, _json: bool) -> Result<(), CommandErr
     let todo: Vec<_> = wanted.into_iter().filter(|knobs| !record.holds(knobs)).collect();
     let (can, cannot): (Vec<_>, Vec<_>) = todo.into_iter().partition(|knobs| runner.can(knobs));
     if !cannot.is_empty() {
-        say(&format!("{} runs need an adapter and are left out", cannot.len()));
+        eprintln!("{} runs need an adapter and are left out", cannot.len());
     }
     let all = can.len();
     for (number, knobs) in can.into_iter().enumerate() {
         let row = runner.measure(&knobs)?;
-        say(&format!("{}/{all} {}", number + 1, words(&row)));
+        if !json {
+            say(&format!("{}/{all} {}", number + 1, words(&row)));
+        }
         record.add(row).map_err(CaseError::from)?;
     }
-    if request.held_back { Ok(()) } else { summarise(request, gpu.as_ref(), &record.rows) }
+    if !request.held_back {
+        summarise(request, gpu.as_ref(), &record.rows)?;
+    }
+    let (folder, rows) = (request.out.display(), record.rows.len());
+    say(&if json {
+        json!({ "folder": request.out, "runs": all, "rows": rows, "left_out": cannot.len() })
+            .to_string()
+    } else {
+        format!("{rows} rows, {all} of them new, and what is made of them in {folder}")
+    });
+    Ok(())
 }
 
 /// Writes what is made of the rows, replacing what was made of fewer.
@@ -88,7 +101,7 @@ fn summarise(
     let costs = if file("cost.csv").exists() {
         Table::read(&file("cost.csv"))?
     } else {
-        say("measuring what a cell update costs");
+        eprintln!("measuring what a cell update costs");
         let costs = cost::measure(&request.golden, gpu)?;
         save("cost.csv", "Cost of a cell update, the best of 80 rounds of 15 ms", &costs)?;
         costs
@@ -118,12 +131,12 @@ fn summarise(
             write(&file("held_back.svg"), |path| write_svg(&figure, path))?;
         }
     }
-    for flow in Flow::ALL {
-        if let Some(figure) = figures::error_against_time(flow, rows, &costs) {
-            write(&file(&format!("{}.svg", flow.word())), |path| write_svg(&figure, path))?;
+    for problem in figures::problems(rows) {
+        if let Some(figure) = figures::error_against_time(&problem, rows, &costs) {
+            let name = format!("{}_{}.svg", problem.0.word(), problem.1).replace("_.", ".");
+            write(&file(&name), |path| write_svg(&figure, path))?;
         }
     }
-    say(&format!("tables and figures in {}", request.out.display()));
     Ok(())
 }
 

@@ -23,9 +23,27 @@ pub struct Placed<'a> {
     pub error: f64,
 }
 
-/// The runs of a flow that have an error and a cost.
-pub fn placed<'a>(flow: Flow, rows: &'a [Row], costs: &Table) -> Vec<Placed<'a>> {
-    let own = rows.iter().filter(|row| row.knobs.flow == flow);
+/// The different flows and geometries among some rows, in the order of the report.
+pub fn problems(rows: &[Row]) -> Vec<(Flow, String)> {
+    let mut found = Vec::new();
+    for flow in Flow::ALL {
+        for row in rows.iter().filter(|row| row.knobs.flow == flow) {
+            let problem = (flow, row.knobs.geometry.clone());
+            if !found.contains(&problem) {
+                found.push(problem);
+            }
+        }
+    }
+    found
+}
+
+/// The runs of a flow in a geometry that have an error and a cost.
+pub fn placed<'a>(
+    (flow, geometry): &(Flow, String),
+    rows: &'a [Row],
+    costs: &Table,
+) -> Vec<Placed<'a>> {
+    let own = rows.iter().filter(|row| row.knobs.flow == *flow && row.knobs.geometry == *geometry);
     own.filter_map(|row| {
         let cost = seconds_per_update(costs, &row.knobs).ok()?;
         let seconds = row.cell_updates() as f64 * cost;
@@ -82,28 +100,34 @@ const SERIES: [&str; 9] = [
     "f16 shifted (storage only)",
 ];
 
-/// Title of a flow and what its error is.
-pub fn title(flow: Flow) -> (&'static str, &'static str) {
+/// Title of a flow in a geometry.
+fn title((flow, geometry): &(Flow, String)) -> String {
     match flow {
-        Flow::Poiseuille => {
-            ("Poiseuille flow between plates, 8 to 24 cells", "error of the profile (relative L2)")
+        Flow::Poiseuille => "Flow between plates, 8 to 24 cells".to_owned(),
+        Flow::Sc => format!("Simple cubic array, solid fraction {geometry}"),
+        Flow::Bcc => format!("Body-centred cubic array, solid fraction {geometry}"),
+        Flow::Fcc => format!("Face-centred cubic array, solid fraction {geometry}"),
+        Flow::SphereDrag => "A sphere in a duct 5 diameters wide".to_owned(),
+        Flow::Settling => {
+            let width = 1.0 / geometry.parse().unwrap_or(f64::NAN);
+            format!("A grain settles in a shaft {width} diameters wide")
         }
-        Flow::Sc => ("Simple cubic array, solid fraction 0.2", "error of the velocity"),
-        Flow::Bcc => ("Body-centred cubic array, solid fraction 0.3", "error of the velocity"),
-        Flow::Fcc => ("Face-centred cubic array, solid fraction 0.45", "error of the velocity"),
-        Flow::SphereDrag => ("A sphere in a duct 5 diameters wide", "error of the velocity"),
-        Flow::Settling => ("A grain settles in a shaft 4 diameters wide", "error of the velocity"),
-        Flow::Seepage => ("Seepage through a bed as dense as sand (0.6)", "error of the velocity"),
+        Flow::Seepage => format!("Seepage through a bed as dense as sand ({geometry})"),
     }
 }
 
-/// Error against time for a flow; `None` without a run to draw.
-pub fn error_against_time(flow: Flow, rows: &[Row], costs: &Table) -> Option<Figure> {
-    let placed = placed(flow, rows, costs);
+/// Error against time for a flow in a geometry; `None` without a run to draw.
+pub fn error_against_time(problem: &(Flow, String), rows: &[Row], costs: &Table) -> Option<Figure> {
+    let placed = placed(problem, rows, costs);
     if placed.is_empty() {
         return None;
     }
-    let (title, error) = title(flow);
+    let title = title(problem);
+    let error = match problem.0 {
+        Flow::Poiseuille => "error of the profile (relative L2)",
+        Flow::Settling => "error of the settling velocity",
+        _ => "error of the velocity under a given force",
+    };
     let mut figure = Figure::new(
         format!("{title}: error against time"),
         Axis::log("time to the steady flow (s): cell updates times the cost of one"),
@@ -120,16 +144,23 @@ pub fn error_against_time(flow: Flow, rows: &[Row], costs: &Table) -> Option<Fig
     let points = |all| on_front(&placed, all).iter().map(|p| (p.seconds, p.error)).collect();
     let (best, of_all): (Vec<_>, Vec<_>) = (points(false), points(true));
     if best.len() > 1 {
-        let label = "front: none that converges is faster and better";
+        let label = "front of models that converge";
         figure = figure.with(Series::dashed(label, steps(&best)).with_colour(0));
     }
     if of_all.len() > 1 && of_all != best {
-        let label = "front of all, errors that cancel included";
+        let label = "front of all runs";
         figure = figure.with(Series::new(label, Style::Reference, steps(&of_all)));
     }
-    Some(figure.note(
-        "each point is a run: more cells and smaller tau to the lower right; sweep.csv has them all",
-    ))
+    let figure =
+        figure.note("a run on a front is beaten by none that is faster; sweep.csv has all runs");
+    let floor = placed.iter().any(|p| p.error == FLOOR);
+    Some(match problem.0 {
+        Flow::Poiseuille if floor => figure.note("errors below 1e-8 are drawn at 1e-8"),
+        Flow::Poiseuille => figure,
+        _ => figure.note(
+            "below the front of models that converge errors cancel: at another tau the same model is far off",
+        ),
+    })
 }
 
 /// A front as a staircase: until the next better point nothing better is to be had.

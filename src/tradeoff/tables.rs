@@ -1,7 +1,7 @@
 //! What is made of the rows of a sweep: fits, fronts, and predictions beside measurements, as tables.
 
-use super::figures::{on_front, placed};
-use super::knobs::{COLUMNS, Flow};
+use super::figures::{on_front, placed, problems};
+use super::knobs::COLUMNS;
 use super::model::Models;
 use super::record::Row;
 use super::trial::Trial;
@@ -63,8 +63,8 @@ pub fn fronts(rows: &[Row], costs: &Table) -> Table {
     let columns: Vec<&str> =
         COLUMNS.iter().copied().chain(["error", "cell_updates", "seconds_by_cost"]).collect();
     let mut table = Table::new(&columns);
-    for flow in Flow::ALL {
-        for best in on_front(&placed(flow, rows, costs), false) {
+    for problem in problems(rows) {
+        for best in on_front(&placed(&problem, rows, costs), false) {
             let mut row = best.row.knobs.row();
             row.push(best.row.error.map_or_else(String::new, |error| format!("{error:.4e}")));
             row.push(best.row.cell_updates().to_string());

@@ -137,6 +137,10 @@ pub fn breaks(engine: &str, name: &str, text: &str, cause: &str) {
     assert!(said.contains("stopped before step") && said.contains(cause), "{name}: {said}");
     println!("{name}: {said}");
     assert_all_finite(&folder.path("out"));
+    // A state that the guard takes for broken is not recorded either: the limit is half a cell per step,
+    // 0.5 m/s here, of the bare momentum; a twentieth is for the half step of the force.
+    let fastest = last_value(&folder.path("out/box.csv"), "max_speed");
+    assert!(fastest < 0.6, "{name}: a row with {fastest} m/s was written");
 }
 
 /// A box of one cell gains in each step what the force gives, and nothing else happens to it.
