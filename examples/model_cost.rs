@@ -66,7 +66,7 @@ fn main() -> Result<(), Failure> {
          # (RAYON_NUM_THREADS=1, LP_NUM_THREADS=1) on two shared cores; the load at the start and the end stands in\n\
          # the last line. The guard is off but in its own row and in that of the record. against: the row that a\n\
          # model is added to. bytes_per_cell: growth of a process with {LARGE}^3 cells over their number; on a\n\
-         # software adapter that is the device's memory too.\n\
+         # software adapter that is the device's memory too, and scatters by some 30 with what its host keeps.\n\
          engine,model,against,time_ratio,ns_per_cell_update,bytes_per_cell\n"
     );
     let load = || std::fs::read_to_string("/proc/loadavg").unwrap_or_default();

@@ -202,3 +202,23 @@ fn sphere_that_drifts_with_a_uniform_stream_leaves_it_uniform() {
         assert!(solver.loads()[0].force.norm() < 1e-12);
     }
 }
+
+/// Newton's second law for a fluid without walls; a start that takes half a step's force with the wrong
+/// sign is a whole step ahead.
+#[test]
+fn uniform_fluid_under_a_body_force_has_its_first_velocity_and_gains_g_over_rho_a_step() {
+    let (rho, u) = (1.1, Vec3::new(0.01, -0.02, 0.005));
+    let g = Vec3::new(1e-4, 2e-4, -3e-4);
+    for collision in
+        [Collision::Srt { tau: 0.7 }, Collision::Mrt { rates: Rates::dhumieres(0.7).unwrap() }]
+    {
+        let setup = Setup::fluid(one_cell(), collision).with_body_force(g);
+        let mut solver = Solver::starting_from(setup, |_| (rho, u)).unwrap();
+        for step in 0..20 {
+            let expected = u + g * (f64::from(step) / rho);
+            // Round-off of twenty steps.
+            assert_abs_diff_eq!(solver.velocity_field()[0], expected, epsilon = 1e-14);
+            solver.run(1).unwrap();
+        }
+    }
+}

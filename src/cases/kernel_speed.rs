@@ -15,12 +15,12 @@ pub const CASE: Case = Case {
          The column cost is the time \
          of a cell update over that of plain MRT: what a model costs that a scene can leave out. Cells inside \
          fixed solids are not skipped: the oracle collides them too, and leaving out a quarter of all cells, \
-         deep inside spheres, saved but 5 %. The table is made by cargo run --release \
+         deep inside spheres, saved but 5 %. The table is made by cargo run \
          --example kernel_speed.",
     ],
     scenes: &[],
     rows: "speed.csv",
-    full: "cargo run --release --example kernel_speed made these rows; minutes",
+    full: "cargo run --example kernel_speed made these rows; minutes",
     measure,
     judge,
     draw,

@@ -19,7 +19,11 @@ pub const CASE: Case = Case {
         "The paper (section 6) says that in a packed bed SRT fails above Re = 2 while MRT reaches Re = 30. It states no \
          relaxation time. The bed here is an ordered array of its porosity, 0.4, and nearly its resolution; Re is the \
          paper's. The third figure shows the Reynolds number that each collision survives, the fourth how many times \
-         the velocity MRT survives that SRT does: 15 in the paper.",
+         as fast a flow MRT survives as SRT does: 15 times in the paper. Driven by a body force SRT does not fail at \
+         Re = 2 at any relaxation time up to 1, with either weight B, and MRT survives at most 8 times as much. With the \
+         paper's velocity inlet and free outflow and tau = 0.5001, SRT fails between Re = 7 and 66 while MRT reaches \
+         6,600; at 0.501 the ratio is 3 and from 0.51 on about 1. So the paper's ratio is found with its faces and a \
+         relaxation time a few 1e-4 above 1/2, and nowhere else here.",
         "Free grains: inertia of the fluid inside given back a step later (lagged, the default) or kept. Contacts, grains \
          that overlap and grains that share cells have their own tables in golden/stability.",
     ],
@@ -87,13 +91,19 @@ fn ratios(one: &[(f64, f64)], other: &[(f64, f64)]) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// How many times the velocity MRT with d'Humières' rates survives that SRT does.
+/// How many times as fast a flow MRT with d'Humières' rates survives as SRT does: by the Reynolds number
+/// that was reached where the map has it (a weight that takes more drag lets less through), else by the
+/// velocity.
 fn mrt_over_srt(rows: &Table, wanted: &[(&str, &str)]) -> Result<Vec<(f64, f64)>, CaseError> {
-    let of = |collision| {
+    let of = |collision, column| {
         let wanted: Vec<_> = wanted.iter().copied().chain([("collision", collision)]).collect();
-        points(rows, &wanted, "survives_to")
+        points(rows, &wanted, column)
     };
-    Ok(ratios(&of("MRT_dHumieres")?, &of("SRT")?))
+    let reached = ratios(&of("MRT_dHumieres", "reynolds")?, &of("SRT", "reynolds")?);
+    if reached.is_empty() {
+        return Ok(ratios(&of("MRT_dHumieres", "survives_to")?, &of("SRT", "survives_to")?));
+    }
+    Ok(reached)
 }
 
 fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
@@ -127,8 +137,12 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             why: "rounding may move a frontier by one of the tried velocities, which are up to a factor of 2 apart",
         },
         Claim {
-            what: "free grains, density ratio 1 to 10, lagged: share of runs that are right".to_owned(),
-            measured: share(&movers, |row| row[3] == "lagged" && number(&row[5]) >= 1.0, &["right"]),
+            what: "free grains, density ratio 1 to 10, lagged, tau to 2: share of runs that are right".to_owned(),
+            measured: share(
+                &movers,
+                |row| row[3] == "lagged" && number(&row[5]) >= 1.0 && number(&row[4]) <= 2.0,
+                &["right"],
+            ),
             allowed: 1.0..=1.0,
             why: "momentum and the final velocity are exact: 2 % of the velocity at the start",
         },
@@ -179,6 +193,11 @@ fn furthest_from_one(rows: &Table) -> Result<f64, CaseError> {
         .fold(1.0, |worst: f64, r: f64| if r.ln().abs() > worst.ln().abs() { r } else { worst }))
 }
 
+/// The figure with a series, if that has points.
+fn with_points(figure: Figure, series: Series) -> Figure {
+    if series.points.is_empty() { figure } else { figure.with(series) }
+}
+
 /// Axis of the relaxation times.
 fn tau() -> Axis {
     Axis::log("τ - 1/2 (viscosity over 1/3)").ticks(&[1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0])
@@ -217,9 +236,9 @@ fn fluid(rows: &Table, flow: &str, title: &str) -> Result<Figure, CaseError> {
         let own = [("flow", flow), ("engine", "reference"), ("collision", collision)];
         let lives = points(rows, &own, "survives_to")?;
         let right = points(rows, &own, "right_to")?;
-        figure = figure
-            .with(Series::line_points(format!("{label}: survives"), lives).with_colour(colour))
-            .with(Series::dashed(format!("{label}: is right"), right).with_colour(colour));
+        let lives = Series::line_points(format!("{label}: survives"), lives).with_colour(colour);
+        let right = Series::dashed(format!("{label}: is right"), right).with_colour(colour);
+        figure = with_points(with_points(figure, lives), right);
     }
     Ok(figure.note(
         "double precision; 0.5 was the largest tried; where a dashed line ends no tried velocity was right",
@@ -241,7 +260,7 @@ fn reynolds(rows: &Table) -> Result<Figure, CaseError> {
                 ("collision", collision),
             ];
             let found = points(rows, &own, "reynolds")?;
-            figure = figure.with(Series::line_points(format!("{label}, {word}"), found));
+            figure = with_points(figure, Series::line_points(format!("{label}, {word}"), found));
         }
     }
     let ends = (9e-6, 1.6);
@@ -258,9 +277,9 @@ fn reynolds(rows: &Table) -> Result<Figure, CaseError> {
 
 fn ratio(rows: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
-        "How many times the velocity MRT survives that SRT does",
+        "How many times as fast a flow MRT survives as SRT",
         tau(),
-        Axis::log("limit of MRT (d'Humières' rates) over that of SRT"),
+        Axis::log("Re (shear layer: velocity) of MRT over that of SRT"),
     );
     let layer = mrt_over_srt(rows, &[("flow", "shear_layer"), ("engine", "reference")])?;
     figure = figure.with(Series::line_points("shear layer", layer));
@@ -273,9 +292,7 @@ fn ratio(rows: &Table) -> Result<Figure, CaseError> {
             let own =
                 [("flow", flow), ("variant", variant), ("weight", weight), ("engine", "reference")];
             let found = mrt_over_srt(rows, &own)?;
-            if !found.is_empty() {
-                figure = figure.with(Series::line_points(format!("{word}, {b}"), found));
-            }
+            figure = with_points(figure, Series::line_points(format!("{word}, {b}"), found));
         }
     }
     let paper = vec![(9e-7, 15.0), (1.6, 15.0)];
@@ -300,7 +317,7 @@ fn movers(map: &Table) -> Result<Figure, CaseError> {
             let found =
                 own.points("tau", "value")?.into_iter().map(|(tau, y)| (tau - 0.5, y)).collect();
             let label = format!("{variant}: {outcome}");
-            figure = figure.with(Series::new(label, Style::Points(Some(marker)), found));
+            figure = with_points(figure, Series::new(label, Style::Points(Some(marker)), found));
         }
     }
     Ok(figure

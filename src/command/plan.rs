@@ -18,6 +18,7 @@ use crate::plan::facts::{Facts, Limit};
 use crate::plan::options::{Speed, Way, as_it_is, cheapest, most_accurate, ways};
 use crate::plan::write::text;
 use crate::scene::{EngineKind, Scene};
+use crate::tradeoff::cost::mrt_over_srt;
 use crate::tradeoff::evidence::{committed_sweep, grain_points, wall_points};
 use crate::tradeoff::knobs::CollisionKnob;
 use crate::tradeoff::model::{LEAST_ERROR, Models};
@@ -66,10 +67,6 @@ impl std::str::FromStr for Wanted {
 
 /// How long the speed of an engine is measured.
 const CALIBRATION: Duration = Duration::from_millis(400);
-
-/// Speed of one relaxation time over that of many, where the scene does not measure it: README, the bed of
-/// spheres on two threads (8.0 and 6.4 million cell updates a second).
-const SRT_OVER_MRT: f64 = 8.0 / 6.4;
 
 /// Makes a plan. Errors if the evidence knows nothing of such a scene, or no way reaches the error.
 pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
@@ -141,10 +138,11 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
             return Err(CommandError::Usage(format!("{}: {problem}", request.scene.display())));
         };
         let is_srt = trial::collision_of(&scene.setup.collision) == Some(CollisionKnob::Srt);
+        let ratio = mrt_over_srt(kind)?;
         let (srt, mrt) = if is_srt {
-            (1.0 / per_second, SRT_OVER_MRT / per_second)
+            (1.0 / per_second, ratio / per_second)
         } else {
-            (1.0 / per_second / SRT_OVER_MRT, 1.0 / per_second)
+            (1.0 / per_second / ratio, 1.0 / per_second)
         };
         speeds.push(Speed { engine: kind.to_owned(), mrt, srt });
     }
@@ -156,8 +154,9 @@ fn unreachable_error(all: &[Way], wanted: f64, facts: &Facts) -> CommandError {
         let [nx, ny, nz] = facts.cells;
         return CommandError::Usage(format!(
             "no grid that fills the box of {nx} x {ny} x {nz} cells lies within the evidence (4 to 23 cells \
-             per diameter, 6 and more between plates, tau 0.6 to 2, 0.1 cells per time step at most): choose a box whose sides share \
-             a larger divisor, or a slower flow"
+             per diameter, 6 and more between plates, tau 0.6 to 2, {} cells per time step at most): choose \
+             a box whose sides share a larger divisor, or a slower flow",
+            facts.fastest
         ));
     };
     CommandError::Usage(format!(

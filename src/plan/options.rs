@@ -9,11 +9,7 @@ use crate::tradeoff::model::Models;
 /// Relaxation times that are tried.
 const TAUS: [f64; 10] = [0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0];
 
-/// The largest velocity may become so many cells per step: above, errors of compressibility set in, and
-/// between grains the flow is several times as fast.
-const FASTEST: f64 = 0.1;
-
-/// And so many cells times velocity over viscosity, as `psmrt check` warns.
+/// Cells times velocity over viscosity may be so many, as `psmrt check` warns.
 const GRID_REYNOLDS: f64 = 10.0;
 
 /// Between plates the evidence reaches from 6 to 32 cells; finer grids follow the closed form.
@@ -120,7 +116,7 @@ fn way(
     let nu = viscosity(tau);
     let si_dt = nu * si_dx * si_dx / facts.si_viscosity;
     let velocity = facts.si_velocity.map(|si_velocity| si_velocity * si_dt / si_dx);
-    if velocity.is_some_and(|u| u > FASTEST || u / nu > GRID_REYNOLDS) {
+    if velocity.is_some_and(|u| u > facts.fastest || u / nu > GRID_REYNOLDS) {
         return None;
     }
     let finer = facts.si_dx / si_dx;

@@ -11,6 +11,9 @@ use crate::cases::{Bench, CaseError, Table};
 use crate::engine::{Engine, KernelEngine, ReferenceEngine};
 use crate::kernel::Gpu;
 
+/// The committed figures, part of the program.
+const COMMITTED: &str = include_str!("../../golden/tradeoff/cost.csv");
+
 /// Rounds, and how long one scene runs in each: short enough to fall between what else the machine does.
 const ROUNDS: usize = 80;
 const SLICE: Duration = Duration::from_millis(15);
@@ -101,4 +104,15 @@ pub fn seconds_per_update(costs: &Table, knobs: &Knobs) -> Result<f64, CaseError
     let wanted =
         [("engine", &*knobs.engine), ("collision", collision.word()), ("scene", kind(knobs.flow))];
     Ok(1e-9 * costs.with(&wanted)?.number("ns_per_cell_update")?)
+}
+
+/// Cost of many relaxation times over that of a single one, on an engine, in a bed: from the committed
+/// figures.
+pub fn mrt_over_srt(engine: &str) -> Result<f64, CaseError> {
+    let costs = Table::parse("golden/tradeoff/cost.csv", COMMITTED)?;
+    let of = |collision: CollisionKnob| {
+        let wanted = [("engine", engine), ("collision", collision.word()), ("scene", "bed")];
+        costs.with(&wanted)?.number("ns_per_cell_update")
+    };
+    Ok(of(CollisionKnob::Dhumieres)? / of(CollisionKnob::Srt)?)
 }

@@ -61,13 +61,11 @@ pub fn committed_sweep() -> Result<Vec<Row>, CaseError> {
 /// fractions, double precision, slow flow.
 fn is_plain(row: &Row) -> bool {
     let knobs = &row.knobs;
-    let nu = (knobs.tau - 0.5) / 3.0;
-    let reynolds = knobs.cells_per_diameter().map_or(0.0, |d| knobs.lattice_velocity * d / nu);
     knobs.weight == "NT"
         && knobs.operator == "bounce_back"
         && knobs.samples == 0
         && knobs.storage == Storage::F64
-        && reynolds < MOST_REYNOLDS
+        && knobs.reynolds() < MOST_REYNOLDS
 }
 
 /// The point of a row with grains, if it has an error; whether it is within the range of the models is

@@ -37,6 +37,9 @@ pub fn problems(rows: &[Row]) -> Vec<(Flow, String)> {
     found
 }
 
+/// Faster flows have another truth: inertia adds to the drag.
+const MOST_REYNOLDS: f64 = 1.0;
+
 /// The runs of a flow in a geometry that have an error and a cost.
 pub fn placed<'a>(
     (flow, geometry): &(Flow, String),
@@ -44,12 +47,13 @@ pub fn placed<'a>(
     costs: &Table,
 ) -> Vec<Placed<'a>> {
     let own = rows.iter().filter(|row| row.knobs.flow == *flow && row.knobs.geometry == *geometry);
-    own.filter_map(|row| {
-        let cost = seconds_per_update(costs, &row.knobs).ok()?;
-        let seconds = row.cell_updates() as f64 * cost;
-        Some(Placed { row, seconds, error: row.error?.abs().max(FLOOR) })
-    })
-    .collect()
+    own.filter(|row| row.knobs.reynolds() < MOST_REYNOLDS)
+        .filter_map(|row| {
+            let cost = seconds_per_update(costs, &row.knobs).ok()?;
+            let seconds = row.cell_updates() as f64 * cost;
+            Some(Placed { row, seconds, error: row.error?.abs().max(FLOOR) })
+        })
+        .collect()
 }
 
 /// Whether a run's models converge with the grid. The others (`B = eps`, few sample points, superposition)

@@ -219,6 +219,12 @@ impl Knobs {
         }
     }
 
+    /// Reynolds number on the diameter, with the velocity of the knob; 0 between plates.
+    pub fn reynolds(&self) -> f64 {
+        let nu = (self.tau - 0.5) / 3.0;
+        self.cells_per_diameter().map_or(0.0, |d| self.lattice_velocity * d / nu)
+    }
+
     /// Whether populations are kept in fewer digits than the engine computes with.
     pub fn is_emulated(&self) -> bool {
         self.engine == "reference" && self.storage != Storage::F64
