@@ -6,7 +6,7 @@ mod common;
 use cli::Folder;
 use common::{Budget, golden_rows};
 use proptest::prelude::*;
-use psmrt::cases::Table;
+use psmrt::cases::{CASES, Golden, Table};
 use psmrt::tradeoff::evidence::{GrainPoint, committed_sweep, grain_points, wall_points};
 use psmrt::tradeoff::front::front;
 use psmrt::tradeoff::knobs::{CollisionKnob, Flow, Knobs, Storage};
@@ -17,6 +17,7 @@ use psmrt::tradeoff::storage::half;
 use psmrt::tradeoff::sweep::runs;
 use psmrt::tradeoff::tables;
 use psmrt::tradeoff::trial::{committed_results, trials};
+use psmrt_report::render_svg;
 use std::fs;
 use std::path::Path;
 
@@ -272,4 +273,28 @@ fn bands_are_narrow_and_hold() {
     println!("{hits} of {}", trials.len());
     // Bands are made to hold 95 %; 90 % is the aim.
     assert!(10 * hits >= 9 * trials.len(), "{hits} of {}", trials.len());
+}
+
+#[test]
+fn section_of_the_report_draws_every_flow_and_what_was_kept_back() {
+    let case = CASES.iter().find(|case| case.name == "tradeoff").unwrap();
+    let golden = Golden::of(case, Path::new(GOLDEN));
+    let figures = (case.draw)(&golden, &Table::default()).unwrap();
+    let wanted = [
+        "Flow between plates",
+        "Simple cubic",
+        "Body-centred",
+        "Face-centred",
+        "A sphere in a duct",
+        "A grain settles",
+        "Seepage",
+        "Ten Cate",
+        "kept back",
+    ];
+    for title in wanted {
+        let figure = figures.iter().find(|figure| figure.title.contains(title));
+        let figure = figure.unwrap_or_else(|| panic!("no figure {title:?}"));
+        let svg = render_svg(figure).unwrap_or_else(|error| panic!("{title}: {error}"));
+        assert!(svg.starts_with("<svg"), "{title}");
+    }
 }

@@ -8,6 +8,7 @@ pub mod info;
 pub mod oracle;
 pub mod pack;
 pub mod plan;
+mod plan_text;
 mod profile;
 mod progress;
 pub mod report;

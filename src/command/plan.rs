@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use super::check::duration;
 use super::execute::say;
+use super::plan_text::{percent, print, to_json, words};
 use super::{CommandError, engine, engine_changes};
 use crate::cases::CaseError;
 use crate::engine::Engine;
@@ -206,91 +206,6 @@ fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, C
             Ok(lines)
         }
         Limit::Plates { .. } => Ok(support::of_walls(models, best.collision)),
-    }
-}
-
-/// Two digits that count.
-fn percent(value: f64) -> String {
-    match 100.0 * value {
-        percent if percent < 0.001 => "< 0.001 %".to_owned(),
-        percent if percent < 0.0995 => format!("{percent:.3} %"),
-        percent if percent < 0.995 => format!("{percent:.2} %"),
-        percent if percent < 9.95 => format!("{percent:.1} %"),
-        percent => format!("{percent:.0} %"),
-    }
-}
-
-fn words(way: &Way) -> String {
-    let [nx, ny, nz] = way.cells;
-    format!(
-        "{nx} x {ny} x {nz} cells ({:.1} across), tau {}, {}, engine {}",
-        way.resolution,
-        way.tau,
-        way.collision.words(),
-        way.engine
-    )
-}
-
-fn to_json(way: &Way) -> Value {
-    json!({
-        "cells": way.cells, "dx_m": way.si_dx, "resolution": way.resolution, "tau": way.tau,
-        "collision": way.collision.word(), "engine": way.engine, "lattice_velocity": way.velocity,
-        "steps": way.steps, "error": way.error, "band": way.band, "seconds": way.seconds,
-    })
-}
-
-fn print(
-    scene: &Scene,
-    facts: &Facts,
-    wanted: f64,
-    now: Option<&Way>,
-    best: &Way,
-    alternatives: &[(String, Option<&Way>)],
-    evidence: &[String],
-) {
-    if !scene.title.is_empty() {
-        say(&format!("{}\n", scene.title));
-    }
-    let across = match facts.limit {
-        Limit::Grains { .. } => "cells across a grain",
-        Limit::Plates { .. } => "cells between walls",
-    };
-    say(&format!(
-        "  {:<21}{across:>21}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
-        "", "tau", "collision", "engine", "error", "95 % lie within", "time"
-    ));
-    let line = |what: &str, way: Option<&Way>| match way {
-        Some(way) => say(&format!(
-            "  {what:<21}{:>21.1}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
-            way.resolution,
-            way.tau,
-            way.collision.words(),
-            way.engine,
-            percent(way.error),
-            format!("{} to {}", percent(way.band[0]), percent(way.band[1])),
-            duration(way.seconds)
-        )),
-        None => say(&format!("  {what:<21}none within the evidence")),
-    };
-    line("as it is", now);
-    line(&format!("plan for {}", percent(wanted)), Some(best));
-    for (what, way) in alternatives {
-        line(what, *way);
-    }
-    let [nx, ny, nz] = best.cells;
-    say(&format!(
-        "\nthe plan: dx = {:.4e} m, {nx} x {ny} x {nz} cells, tau = {}",
-        best.si_dx, best.tau
-    ));
-    say(match facts.limit {
-        Limit::Grains { .. } => {
-            "error: of the settling velocity, or of the flow that a given force drives; times are upper limits"
-        }
-        Limit::Plates { .. } => "error: of the profile (relative L2); times are upper limits",
-    });
-    say("\nthe evidence");
-    for line in evidence {
-        say(&format!("  {line}"));
     }
 }
 
