@@ -14,10 +14,10 @@ use crate::scene::{FreePart, Scene};
 /// A grain pressed in by more than this share of its diameter is no hard sphere any more.
 const DEEP: f64 = 0.01;
 
-/// Smallest density ratios that were right with the inertia of the fluid inside given back a step later, and
-/// kept; the next smaller that were tried, 0.5 and 0.2, broke: golden/stability/movers.csv.
+/// Smallest density ratio that was right with the inertia of the fluid inside given back a step later, and
+/// kept, at tau up to 1; the next smaller that was tried, 0.5, broke at tau of 0.6 and more either way:
+/// golden/stability/movers.csv.
 const LIGHT: f64 = 0.8;
-const LIGHT_KEPT: f64 = 0.5;
 
 /// Contacts shorter than so many time steps are over before the fluid takes part.
 const BRIEF: f64 = 4.0;
@@ -187,21 +187,12 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let lightest = free(part)
         .map(|grain| grain.mass / (part.settings.fluid_density * sphere_volume(grain.radius)))
         .fold(f64::INFINITY, f64::min);
-    let (way, limit) = match part.settings.internal_fluid {
-        InternalFluid::Lagged => ("given back a step later", LIGHT),
-        InternalFluid::Kept => ("kept", LIGHT_KEPT),
-    };
-    if lightest < limit {
+    if lightest < LIGHT {
         let reason = format!(
-            "a grain of {lightest:.2} times the density of the fluid: with the inertia of the fluid inside {way}, \
-             lighter grains than {limit} were driven by the fluid until the run broke (golden/stability/movers.csv)"
+            "a grain of {lightest:.2} times the density of the fluid: grains lighter than {LIGHT} times were driven \
+             by the inertia of the fluid inside until the run broke (golden/stability/movers.csv)"
         );
-        let remedy = if lightest < LIGHT_KEPT {
-            "use grains of half the density of the fluid or more"
-        } else {
-            "use `internal_fluid = \"kept\"` in [coupling]"
-        };
-        warn(reason, remedy);
+        warn(reason, "use denser grains: psmrt has no scheme for light ones");
     }
     let [_, under] = overlaps(scene, part);
     if under > DEEP {
