@@ -7,6 +7,13 @@
 //! ```text
 //! cargo run --release --example ten_cate_study
 //! ```
+//!
+//! With the folder of a run of `golden/ten_cate/scene.toml` and the name of its experiment it adds that run's row
+//! instead, whatever engine made it:
+//!
+//! ```text
+//! cargo run --release --example ten_cate_study out/e1_16 E1
+//! ```
 
 #![allow(dead_code, reason = "the tests use more of the shared modules")]
 
@@ -14,8 +21,12 @@
 mod common;
 
 use common::settling::{Experiment, Fall, Moment, compare};
+use psmrt::cases::Table;
+use psmrt::scene::{EngineKind, Scene};
+use std::error::Error;
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
+use std::path::Path;
 
 const STUDY: &str = "golden/ten_cate/study.csv";
 const FALLS: &str = "golden/ten_cate/falls.csv";
@@ -27,7 +38,10 @@ const CASES: [(&str, f64); 4] = [("E4", 0.55), ("E3", 0.58), ("E2", 0.65), ("E1"
 /// Moments of a fall that are kept.
 const KEPT: usize = 150;
 
-fn main() -> io::Result<()> {
+fn main() -> Result<(), Box<dyn Error>> {
+    if let [_, folder, name] = &std::env::args().collect::<Vec<_>>()[..] {
+        return add_run(Path::new(folder), name);
+    }
     for cells in [8, 12, 16] {
         for (name, tau) in CASES {
             let start = format!("{name},{cells},{tau},");
@@ -37,30 +51,66 @@ fn main() -> io::Result<()> {
             let experiment = Experiment::named(name);
             let mut fall = Fall::new(&experiment, f64::from(cells), tau);
             let path = until_it_touches(&mut fall)?;
-            let kept: String = path
-                .iter()
-                .step_by(path.len().div_ceil(KEPT))
-                .map(|m| format!("{start}{:.5},{:.5},{:.6}\n", m.si_time, m.gap, m.si_velocity))
-                .collect();
-            append(FALLS, &kept)?;
-            let found = compare(&experiment, &path);
             let fluid = fall.solver.fluid();
-            let row = format!(
-                "{start}{},{},{:.5},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4}\n",
-                fluid.domain().cell_count(),
-                fluid.steps(),
-                experiment.si_largest * (1.0 + found.largest),
-                found.largest,
-                found.velocity,
-                found.gap_offset,
-                found.gap,
-                found.si_delay,
-                found.braking,
-            );
-            append(STUDY, &row)?;
-            print!("{row}");
+            let made = (fluid.domain().cell_count(), fluid.steps(), "reference");
+            add(&experiment, &start, &path, made)?;
         }
     }
+    Ok(())
+}
+
+/// Adds the fall of a run's record.
+fn add_run(folder: &Path, name: &str) -> Result<(), Box<dyn Error>> {
+    let scene = Scene::load(&folder.join("scene.toml"), &[])?;
+    let experiment = Experiment::named(name);
+    let cells = (experiment.si_diameter / scene.units.si_dx).round();
+    let start = format!("{name},{cells},{},", scene.setup.collision.tau());
+    let rows = Table::read(&folder.join("sphere.csv"))?;
+    let (times, heights) = (rows.numbers("time (s)")?, rows.numbers("z (m)")?);
+    let velocities = rows.numbers("velocity_z (m/s)")?;
+    let moments = times.iter().zip(&heights).zip(&velocities).map(|((time, z), velocity)| Moment {
+        si_time: *time,
+        gap: z / experiment.si_diameter - 0.5,
+        si_velocity: -velocity,
+    });
+    let all: Vec<Moment> = moments.collect();
+    let touches = all.iter().position(|moment| moment.gap <= 0.002);
+    let touches =
+        touches.ok_or("the run ends before the sphere is at the bottom: raise stop.time")?;
+    #[expect(clippy::cast_possible_truncation, reason = "below a million")]
+    #[expect(clippy::cast_sign_loss, reason = "time goes forwards")]
+    let steps = (all[touches].si_time / scene.units.si_dt).round() as u64;
+    let engine = if scene.engine == EngineKind::Wgpu { "wgpu" } else { "reference" };
+    let made = (scene.setup.domain.cell_count(), steps, engine);
+    Ok(add(&experiment, &start, &all[..=touches], made)?)
+}
+
+/// Adds a fall's row and its course; `made` are cells, steps and engine.
+fn add(
+    experiment: &Experiment,
+    start: &str,
+    path: &[Moment],
+    (cells, steps, engine): (usize, u64, &str),
+) -> io::Result<()> {
+    let kept: String = path
+        .iter()
+        .step_by(path.len().div_ceil(KEPT))
+        .map(|m| format!("{start}{:.5},{:.5},{:.6}\n", m.si_time, m.gap, m.si_velocity))
+        .collect();
+    append(FALLS, &kept)?;
+    let found = compare(experiment, path);
+    let row = format!(
+        "{start}{cells},{steps},{:.5},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{engine}\n",
+        experiment.si_largest * (1.0 + found.largest),
+        found.largest,
+        found.velocity,
+        found.gap_offset,
+        found.gap,
+        found.si_delay,
+        found.braking,
+    );
+    append(STUDY, &row)?;
+    print!("{row}");
     Ok(())
 }
 

@@ -13,8 +13,8 @@ pub const CASE: Case = Case {
          numbers of 1.5, 4.1, 11.6 and 31.9. Measured curves of velocity and gap, digitised to about 2 % of \
          the largest velocity and 0.05 diameters. The spheres start and brake a little later than their \
          clock says (0.03 to 0.2 s): the shift that fits the braking best is reported, not hidden.",
-        "These are falls of the full form on the oracle, at 8 and more cells per diameter (study.csv, \
-         falls.csv); `cargo test` repeats the fastest.",
+        "These are falls of the full form, at 8, 12 and 16 cells per diameter (study.csv says which engine, \
+         falls.csv); `cargo test` repeats the fastest, and golden/ten_cate/scene.toml is that fall.",
     ],
     scenes: &[],
     rows: "study.csv",
