@@ -61,7 +61,12 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
     let (mut sections, mut timings) = (Vec::new(), Vec::new());
     for (number, case) in cases.iter().enumerate() {
         eprintln!("{} of {}: {}", number + 1, cases.len(), case.title);
-        sections.push(section(case, &mut benches, &mut timings, request)?);
+        sections.push(match section(case, &mut benches, &mut timings, request) {
+            Err(CommandError::Case(error)) if !matches!(error, CaseError::Interrupted) => {
+                broken(case, &error)
+            }
+            other => other?,
+        });
     }
     let scale = if request.full { "full scale" } else { "quick scale" };
     let page = Page {
@@ -197,8 +202,8 @@ fn section(
                 rows,
             })
             .collect(),
-        scenes: case.scenes.iter().map(|scene| format!("golden/{}/{scene}", case.name)).collect(),
-        command: format!("cargo run --release -- report --case {}", case.name),
+        scenes: scenes(case),
+        command: command(case),
         full: case.full.to_owned(),
     })
 }
@@ -211,6 +216,35 @@ fn settled_row(engine: &str, run: &Settled) -> Vec<String> {
     let Settled { run, steps, tolerance, change, left } = run;
     let numbers = [tolerance, change, left].map(|value| format!("{value:.1e}"));
     [vec![engine.to_owned(), run.clone(), steps.to_string()], numbers.to_vec()].concat()
+}
+
+/// The section of a case that could not be measured: red, with the reason.
+fn broken(case: &Case, error: &CaseError) -> Section {
+    Section {
+        name: case.name.to_owned(),
+        title: case.title.to_owned(),
+        about: case.about.iter().map(|&text| text.to_owned()).collect(),
+        verdicts: vec![Verdict {
+            claim: "it can be measured".to_owned(),
+            measured: error.to_string(),
+            allowed: "runs to its end".to_owned(),
+            why: "a run that stops has no result".to_owned(),
+            holds: false,
+        }],
+        figures: Vec::new(),
+        tables: Vec::new(),
+        scenes: scenes(case),
+        command: command(case),
+        full: case.full.to_owned(),
+    }
+}
+
+fn scenes(case: &Case) -> Vec<String> {
+    case.scenes.iter().map(|scene| format!("golden/{}/{scene}", case.name)).collect()
+}
+
+fn command(case: &Case) -> String {
+    format!("cargo run --release -- report --case {}", case.name)
 }
 
 fn verdict(claim: &Claim) -> Verdict {
