@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Adds the fall of a run's record.
+/// Adds the fall of a run's record, until the gap is 1/250 of the diameter.
 fn add_run(folder: &Path, name: &str) -> Result<(), Box<dyn Error>> {
     let scene = Scene::load(&folder.join("scene.toml"), &[])?;
     let experiment = Experiment::named(name);
@@ -74,7 +74,7 @@ fn add_run(folder: &Path, name: &str) -> Result<(), Box<dyn Error>> {
         si_velocity: -velocity,
     });
     let all: Vec<Moment> = moments.collect();
-    let touches = all.iter().position(|moment| moment.gap <= 0.002);
+    let touches = all.iter().position(|moment| moment.gap <= 0.004);
     let touches =
         touches.ok_or("the run ends before the sphere is at the bottom: raise stop.time")?;
     #[expect(clippy::cast_possible_truncation, reason = "below a million")]
