@@ -4,12 +4,13 @@
 //! with the scene's models. Sizes and rates are constants of the shader.
 
 use psmrt_reference::collision::Collision;
+use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::Face;
-use psmrt_reference::partial_saturation::SolidOperator;
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::setup::Setup;
 
 use super::layout::{Layout, Store};
-use super::numbers::literal;
+use super::numbers::{count, literal};
 use super::streaming::{access, faces};
 use super::table;
 
@@ -59,6 +60,27 @@ pub(super) enum Work {
     Observe,
     /// Sums over the box.
     Summary,
+}
+
+/// The stages of finding what solids cover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// Which cells each touches, and how much of them.
+    Touch,
+    /// What each cell is made of.
+    Resolve,
+    /// How many cells are listed.
+    Drive,
+}
+
+/// What a shader that finds what solids cover is made from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Covering {
+    pub(super) stage: Stage,
+    /// Whether the step of all cells has the solids in it.
+    pub(super) in_every_cell: bool,
+    /// Workgroups to each solid.
+    pub(super) parts: u32,
 }
 
 impl Work {
@@ -125,6 +147,7 @@ impl Recipe<'_> {
             add(include_str!("wgsl/moments_kept.wgsl"));
         }
         if listed {
+            add(include_str!("wgsl/coordinates.wgsl"));
             add(include_str!("wgsl/task.wgsl"));
             add(&faces(&self.setup.domain, &self.layout));
         }
@@ -137,14 +160,66 @@ impl Recipe<'_> {
         text
     }
 
-    /// The shader that adds up the shares of each solid.
+    /// The shader that adds up the touches of each solid.
     pub(super) fn gather(&self) -> String {
         // A workgroup waits for its slowest part, which a software adapter does at some cost: there it has
         // but one part, eight invocations.
         let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
         let tables = [(0, "shares"), (4, "moments")]
             .map(|(binding, name)| table::reader(self.layout.store, binding, name));
-        format!("const LANES = {lanes}u;\n{}{}", tables.concat(), include_str!("wgsl/gather.wgsl"))
+        let head = format!("const LANES = {lanes}u;\nconst SOLIDS = {}u;\n", self.solid_count());
+        let files = [include_str!("wgsl/solid.wgsl"), include_str!("wgsl/gather.wgsl")];
+        head + &tables.concat() + &files.concat()
+    }
+
+    /// The shaders that find what the solids cover; see `movable.rs`.
+    pub(super) fn covering(&self, work: Covering) -> String {
+        let phase = self.setup.solid_phase.as_ref();
+        let mut flags = Vec::new();
+        let samples = match phase.map(|phase| phase.coverage) {
+            Some(CoverageRule::Sampled { n }) => {
+                flags.push("SAMPLED");
+                n
+            }
+            _ => 1,
+        };
+        if phase.is_some_and(|phase| phase.weighting == Weighting::NobleTorczynski) {
+            flags.push("NOBLE");
+        }
+        if !work.in_every_cell {
+            flags.push("LISTED");
+        }
+        let mut text = self.constants();
+        let whole =
+            [("SOLIDS", self.solid_count()), ("PARTS", work.parts), ("SAMPLES", count(samples))];
+        for (name, value) in whole {
+            text += &format!("const {name} = {value}u;\n");
+        }
+        text += &format!("const EXCESS = {};\n", literal(self.setup.collision.tau() - 0.5));
+        for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
+            text += &format!("const PERIODIC_{name} = {};\n", self.setup.domain.is_periodic(axis));
+        }
+        let store = self.layout.store;
+        text += include_str!("wgsl/solid.wgsl");
+        match work.stage {
+            Stage::Touch => {
+                text += &table::writer(store, 12, "shares");
+                text += include_str!("wgsl/coordinates.wgsl");
+                text += include_str!("wgsl/fraction.wgsl");
+                text += &selected(include_str!("wgsl/cover.wgsl"), &flags);
+            }
+            Stage::Resolve => {
+                text += &table::reader(store, 12, "shares");
+                text += &table::writer(store, 13, "records");
+                text += &selected(include_str!("wgsl/resolve.wgsl"), &flags);
+            }
+            Stage::Drive => text += include_str!("wgsl/drive.wgsl"),
+        }
+        text
+    }
+
+    fn solid_count(&self) -> u32 {
+        self.setup.solid_phase.as_ref().map_or(0, |phase| count(phase.solids.len()))
     }
 
     /// The names of the models that are on.

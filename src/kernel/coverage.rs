@@ -1,4 +1,5 @@
-//! Which cells the solids cover, and what the device must know of it.
+//! Which cells the solids cover, in double precision: what the device is told where none of them can move
+//! (where they can, it finds out by itself, `movable.rs`), and what is seen from outside.
 
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::Domain;
@@ -42,33 +43,17 @@ pub(super) struct Coverage {
     meetings: Vec<(u32, u32)>,
 }
 
-/// Sums over the solids of one cell.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sums {
-    /// Σ ε_s
-    epsilon: f64,
-    /// Σ ε_s u_s
-    velocity: Vec3,
-    /// Σ ε_s u_s,i u_s,i
-    square: Vec3,
-    /// Σ ε_s u_s,i u_s,j (xy, yz, xz)
-    mixed: Vec3,
-}
-
-/// The tables that the device works with.
+/// The tables that the device works with where no solid moves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tables {
-    /// `(B, Σ B_s u_s)` of each record, after one of zeros.
-    pub(super) records: Vec<[f32; 4]>,
-    /// Two rows for each cell in which several solids meet: what `Σ B_s u_s u_s` is above that of the
-    /// mean velocity.
-    pub(super) excess: Vec<[f32; 4]>,
-    /// For each touch the number of its cell's record and the bits of the arm.
+    /// For each touch, after one of none, 0 and the bits of the arm.
     pub(super) shares: Vec<[u32; 4]>,
-    /// For each touch `B_s`.
+    /// The same: the number of its cell's record.
+    pub(super) links: Vec<u32>,
+    /// The same: `B_s`.
     pub(super) weights: Vec<f32>,
-    /// Velocity and spin of each solid.
-    pub(super) motions: Vec<[f32; 4]>,
+    /// Number of touches of each solid.
+    pub(super) counts: Vec<u32>,
 }
 
 impl Coverage {
@@ -145,24 +130,9 @@ impl Coverage {
         &self.cells
     }
 
-    /// The cells in which several solids meet.
-    pub(super) fn meeting_cells(&self) -> impl Iterator<Item = u32> {
-        self.meetings.chunk_by(|a, b| a.0 == b.0).map(|all| all[0].0)
-    }
-
-    /// Whether several solids meet in a cell.
-    pub(super) fn is_meeting(&self, cell: u32) -> bool {
-        self.slots[cell as usize] > 0 && !self.met(cell).is_empty()
-    }
-
     /// Per cell the number of its record, 0 for none.
     pub(super) fn slots(&self) -> &[u32] {
         &self.slots
-    }
-
-    /// Number of the last touch before each solid, and that of the last of all.
-    pub(super) fn starts(&self) -> &[u32] {
-        &self.starts
     }
 
     /// The weight `B` of each cell.
@@ -180,58 +150,29 @@ impl Coverage {
 
     /// The tables for the device.
     pub(super) fn tables(&self, phase: &SolidPhase, tau: f64) -> Tables {
-        let weigh = |touch: &Touch| weight(phase.weighting, touch.epsilon, tau);
-        let row = |w: f64, v: Vec3| [single(w), single(v.x), single(v.y), single(v.z)];
-        let mut tables = Tables { records: vec![[0.0; 4]], ..Tables::default() };
-        let solids = || self.covers.par_iter().zip(&phase.solids);
-        tables.records.par_extend(solids().flat_map_iter(|(cover, solid)| {
-            cover.touches.iter().map(move |touch| {
-                let b = weigh(touch);
-                row(b, b * solid.velocity_at(&touch.arm))
-            })
-        }));
-        (tables.shares, tables.weights) = solids()
-            .flat_map_iter(|(cover, _)| {
-                cover.touches.iter().map(|touch| {
-                    let [_, x, y, z] = row(0.0, touch.arm).map(f32::to_bits);
-                    ([self.slots[touch.cell as usize], x, y, z], single(weigh(touch)))
-                })
-            })
-            .unzip();
-        for all in self.meetings.chunk_by(|a, b| a.0 == b.0) {
-            self.share_out(all, phase, tau, &mut tables);
+        let none = Tables {
+            shares: vec![[0; 4]],
+            links: vec![0],
+            weights: vec![0.0],
+            counts: self.covers.iter().map(|cover| count(cover.touches.len())).collect(),
+        };
+        let mut tables = none;
+        for touch in self.covers.iter().flat_map(|cover| &cover.touches) {
+            let [x, y, z] = [touch.arm.x, touch.arm.y, touch.arm.z].map(|x| single(x).to_bits());
+            tables.shares.push([0, x, y, z]);
+            tables.links.push(self.slots[touch.cell as usize]);
+            tables.weights.push(single(weight(phase.weighting, touch.epsilon, tau)));
         }
-        for motion in &phase.solids {
-            for v in [motion.velocity, motion.spin] {
-                tables.motions.push([single(v.x), single(v.y), single(v.z), 0.0]);
+        // Solids that meet in a cell share its weight by their fractions.
+        for all in self.meetings.chunk_by(|a, b| a.0 == b.0) {
+            let epsilon = |number: u32| self.touch(number).1.epsilon;
+            let sum = all.iter().map(|&(_, number)| epsilon(number)).sum::<f64>();
+            let factor = weight(phase.weighting, sum, tau) / sum;
+            for &(_, number) in all {
+                tables.weights[number as usize] = single(factor * epsilon(number));
             }
         }
         tables
-    }
-
-    /// The tables of a cell in which several solids meet.
-    fn share_out(&self, all: &[(u32, u32)], phase: &SolidPhase, tau: f64, tables: &mut Tables) {
-        let mut sums = Sums::default();
-        for &(_, number) in all {
-            let (solid, touch) = self.touch(number);
-            let (u, epsilon) = (phase.solids[solid].velocity_at(&touch.arm), touch.epsilon);
-            sums.epsilon += epsilon;
-            sums.velocity += epsilon * u;
-            sums.square += epsilon * u.component_mul(&u);
-            sums.mixed += epsilon * Vec3::new(u.x * u.y, u.y * u.z, u.x * u.z);
-        }
-        let factor = weight(phase.weighting, sums.epsilon, tau) / sums.epsilon;
-        let narrow = |w: f64, v: Vec3| [single(v.x), single(v.y), single(v.z), single(w)];
-        let [x, y, z, b] = narrow(factor * sums.epsilon, factor * sums.velocity);
-        tables.records[self.slots[all[0].0 as usize] as usize] = [b, x, y, z];
-        let (u, mean) = (sums.velocity, sums.velocity / sums.epsilon);
-        let square = factor * (sums.square - u.component_mul(&mean));
-        let mixed = Vec3::new(u.x * mean.y, u.y * mean.z, u.x * mean.z);
-        tables.excess.extend([narrow(0.0, square), narrow(0.0, factor * (sums.mixed - mixed))]);
-        for &(_, number) in all {
-            let share = factor * self.touch(number).1.epsilon;
-            tables.weights[number as usize - 1] = single(share);
-        }
     }
 }
 

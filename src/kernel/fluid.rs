@@ -90,12 +90,12 @@ impl Kernel {
             Some(phase) if can_move || !phase.solids.is_empty() => {
                 let moves =
                     phase.solids.iter().any(|solid| solid.velocity != still || solid.spin != still);
-                let tau = setup.collision.tau();
-                Some(Solids::new(gpu, &setup.domain, layout, phase, tau, can_move || moves)?)
+                let solids = if can_move || moves { SolidData::Moving } else { SolidData::Fixed };
+                Some(Solids::new(gpu, &Recipe { setup: &setup, layout, solids }, phase)?)
             }
             _ => None,
         };
-        let data = solids.as_ref().map_or(SolidData::None, |solids| solids.data);
+        let data = solids.as_ref().map_or(SolidData::None, Solids::data);
         let recipe = Recipe { setup: &setup, layout, solids: data };
         let with_solids = solids.as_ref().is_some_and(|solids| solids.in_every_cell);
         let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids, with_loads: false })?;
@@ -162,7 +162,7 @@ impl Kernel {
     }
 
     pub(super) fn recipe(&self) -> Recipe<'_> {
-        let solids = self.solids.as_ref().map_or(SolidData::None, |solids| solids.data);
+        let solids = self.solids.as_ref().map_or(SolidData::None, Solids::data);
         Recipe { setup: &self.setup, layout: self.layout, solids }
     }
 
@@ -228,34 +228,33 @@ impl Kernel {
     /// Puts the solids where `solids` says, with the velocities there. They must be as many as before
     /// and of the same shapes, and must have been announced as movable.
     pub fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), KernelError> {
-        let tau = self.setup.collision.tau();
         if let (Some(phase), Some(on_device)) = (&mut self.setup.solid_phase, &mut self.solids) {
             phase.solids = solids;
             let since = self.watch.begin();
-            on_device.list(&self.setup.domain, phase);
-            self.watch.add(since, |times| &mut times.coverage);
-            let since = self.watch.begin();
-            on_device.upload(&self.gpu, phase, tau)?;
+            on_device.upload(&self.gpu, phase)?;
             self.watch.add(since, |times| &mut times.transfers);
+            let since = self.watch.begin();
+            on_device.find(&self.gpu)?;
+            self.watch.wait(&self.gpu, since, |times| &mut times.coverage)?;
         }
-        self.list_cells()
+        Ok(())
     }
 
     /// Lists the cells that the step of all cells does not do right.
     pub(super) fn list_cells(&mut self) -> Result<(), KernelError> {
-        let (cells, many) = match &self.solids {
-            None => (self.face_cells.clone(), 0),
+        let cells = match &self.solids {
+            None => self.face_cells.clone(),
             Some(solids) => {
                 let mut cells = solids.listed_cells();
                 cells.extend(self.face_cells.iter().filter(|&&cell| !solids.lists(cell)));
-                (cells, solids.many)
+                cells
             }
         };
         self.list_count = count(cells.len());
         self.list.fill(&self.gpu, &cells)?;
-        let listed = [self.list_count, 1, 1, many];
+        let listed = [self.list_count, 1, 1, 0];
         self.gpu.queue.write_buffer(&self.tasks.listed, 0, bytemuck::bytes_of(&listed));
-        let all = [self.layout.count, 0, u32::from(self.is_collided), many];
+        let all = [self.layout.count, 0, u32::from(self.is_collided), 0];
         self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&all));
         Ok(())
     }

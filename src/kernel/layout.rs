@@ -26,7 +26,7 @@ const ROW_SKEW: u64 = 7 * 16;
 const PAGE: u64 = 1024;
 
 /// Largest texture, bytes: what Mesa's llvmpipe 22 allocates and does not tell.
-const MAX_TEXTURE_BYTES: u64 = 1 << 31;
+pub(super) const MAX_TEXTURE_BYTES: u64 = 1 << 31;
 
 /// What the values of cells are kept in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,7 +7,9 @@
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
-//! | `coverage.rs`, `sphere.rs`, `solids.rs` | what the solids cover, and its tables on the device |
+//! | `solids.rs`, `touches.rs` | the solids on the device |
+//! | `movable.rs`, `wgsl/{cover,fraction,resolve}.wgsl` | what movable solids cover, found on the device |
+//! | `coverage.rs`, `sphere.rs` | the same in double precision, where none can move and for what is seen |
 //! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
 //! | `fluid.rs`, `steps.rs`, `sight.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
 //!
@@ -26,8 +28,10 @@ mod device;
 mod error;
 mod field;
 mod fluid;
+mod fractions;
 mod layout;
 mod memory;
+mod movable;
 mod numbers;
 mod pipeline;
 mod sight;
@@ -37,11 +41,13 @@ mod state;
 mod steps;
 mod streaming;
 mod table;
+mod touches;
 mod watch;
 
 pub use device::{AdapterFacts, Gpu, adapters};
 pub use error::KernelError;
 pub use fluid::Kernel;
+pub use fractions::solid_fractions_on_device;
 pub use sight::Summary;
 pub use sphere::{sampled_fraction, solid_fraction, solid_fractions};
 pub use watch::{Beginning, KernelTimes, Spent};

@@ -54,10 +54,9 @@ impl Pipeline {
         Ok(Pipeline { raw, slots })
     }
 
-    /// The pipeline that adds up the shares of each solid.
-    pub(super) fn gather(gpu: &Gpu, recipe: &Recipe<'_>) -> Result<Self, KernelError> {
-        let raw = compiled(gpu, &recipe.gather(), "gather")?;
-        Ok(Pipeline { raw, slots: Vec::new() })
+    /// The pipeline of a shader that does not work on the populations.
+    pub(super) fn of(gpu: &Gpu, shader: &str, entry: &str) -> Result<Self, KernelError> {
+        Ok(Pipeline { raw: compiled(gpu, shader, entry)?, slots: Vec::new() })
     }
 
     pub(super) fn raw(&self) -> &wgpu::ComputePipeline {

@@ -83,8 +83,7 @@ impl Kernel {
         let strands = self.recipe().strands();
         let bytes = u64::from(strands) * 32;
         self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
-        let many = self.solids.as_ref().map_or(0, |solids| solids.many);
-        let task = [self.layout.count, 0, u32::from(self.is_collided), many];
+        let task = [self.layout.count, 0, u32::from(self.is_collided), 0];
         self.look(summary, &self.list, task, strands)?;
         let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
         Ok(Summary::of(bytemuck::cast_slice(&bytes), &self.layout))
@@ -92,7 +91,12 @@ impl Kernel {
 
     /// Total solid fraction of a cell, at most 1.
     pub fn solid_fraction(&self, cell: usize) -> f64 {
-        self.solids.as_ref().map_or(0.0, |solids| solids.coverage.solid_fraction(count(cell)))
+        match (&self.solids, &self.setup.solid_phase) {
+            (Some(solids), Some(phase)) => {
+                solids.coverage(&self.setup.domain, phase).solid_fraction(count(cell))
+            }
+            _ => 0.0,
+        }
     }
 }
 

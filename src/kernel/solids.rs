@@ -1,18 +1,20 @@
 //! The solids on the device.
 
+use std::cell::{Ref, RefCell};
+
 use psmrt_reference::domain::Domain;
 use psmrt_reference::setup::SolidPhase;
 use wgpu::TextureFormat;
 
 use super::buffers::Growing;
-use super::compose::SolidData;
+use super::compose::{Recipe, SolidData};
 use super::coverage::Coverage;
 use super::device::Gpu;
 use super::error::KernelError;
 use super::field::Field;
-use super::layout::Layout;
+use super::movable::Movable;
 use super::numbers::count;
-use super::table::Table;
+use super::touches::{Room, Touches};
 
 /// Above this share of covered cells the solid part is worked out in every cell; below it, only in the
 /// listed ones, a second time.
@@ -31,130 +33,128 @@ pub(super) enum SolidTable {
 /// What the device holds of the solids.
 #[derive(Debug)]
 pub(super) struct Solids {
-    pub(super) data: SolidData,
-    pub(super) coverage: Coverage,
+    /// What they cover, as seen from outside; with movable solids, when it was last looked at.
+    coverage: RefCell<Coverage>,
     /// Whether the step of all cells has the solids in it.
     pub(super) in_every_cell: bool,
-    /// Weights of all cells, where no solid moves.
-    pub(super) cell_weights: Option<Field>,
-    /// Numbers of the records of all cells.
-    pub(super) slots: Field,
-    pub(super) records: Table,
-    pub(super) excess: Growing,
-    /// Momentum and density of each covered cell before its collision.
-    pub(super) moments: Table,
-    pub(super) shares: Table,
-    pub(super) weights: Growing,
-    pub(super) starts: Growing,
-    pub(super) motions: Growing,
+    kept: Kept,
+    pub(super) touches: Touches,
     pub(super) loads: Growing,
     pub(super) solid_count: u32,
-    /// Cells in which several solids meet.
-    pub(super) many: u32,
+}
+
+/// What is known of the solids in cells.
+#[derive(Debug)]
+enum Kept {
+    /// Where they never move: the weight and the number of the record of each cell.
+    Fixed(Box<[Field; 2]>),
+    Movable(Box<Movable>),
 }
 
 impl Solids {
-    /// Uploads the solids where they are. `can_move`: whether they may be placed elsewhere later.
+    /// Uploads the solids where they are. `recipe` says whether they may be placed elsewhere later.
     pub(super) fn new(
         gpu: &Gpu,
-        domain: &Domain,
-        layout: Layout,
+        recipe: &Recipe<'_>,
         phase: &SolidPhase,
-        tau: f64,
-        can_move: bool,
     ) -> Result<Self, KernelError> {
-        let buffer = |label| Growing::new(gpu, label);
-        let table = |label| Table::new(gpu, layout.store, label, 4);
-        let data = if can_move { SolidData::Moving } else { SolidData::Fixed };
-        let weights =
-            || Field::new(gpu, layout, "solid weights of cells", 1, TextureFormat::R32Float);
-        let mut solids = Solids {
-            data,
-            coverage: Coverage::new(layout.count),
-            in_every_cell: false,
-            cell_weights: if can_move { None } else { Some(weights()?) },
-            slots: Field::new(gpu, layout, "records of cells", 1, TextureFormat::R32Uint)?,
-            records: table("records of covered cells")?,
-            excess: buffer("records of cells in which solids meet")?,
-            moments: table("moments of covered cells")?,
-            shares: table("shares of solids")?,
-            weights: buffer("weights of shares")?,
-            starts: buffer("first shares of solids")?,
-            motions: buffer("motion of solids")?,
-            loads: buffer("loads")?,
-            solid_count: 0,
-            many: 0,
-        };
-        solids.list(domain, phase);
-        solids.upload(gpu, phase, tau)?;
-        let covered = solids.coverage.cells().len() as f64 / domain.cell_count() as f64;
-        solids.in_every_cell = covered > DENSE;
-        Ok(solids)
-    }
-
-    /// Lists what the solids cover where they are now.
-    pub(super) fn list(&mut self, domain: &Domain, phase: &SolidPhase) {
-        self.coverage.update(domain, phase);
-    }
-
-    /// Uploads what was listed.
-    pub(super) fn upload(
-        &mut self,
-        gpu: &Gpu,
-        phase: &SolidPhase,
-        tau: f64,
-    ) -> Result<(), KernelError> {
-        let tables = self.coverage.tables(phase, tau);
-        self.slots.write(gpu, 0, bytemuck::cast_slice(self.coverage.slots()));
-        if let Some(field) = &self.cell_weights {
-            let weights = self.coverage.weights(phase.weighting, tau);
-            field.write(gpu, 0, bytemuck::cast_slice(&weights));
+        let (domain, layout) = (&recipe.setup.domain, recipe.layout);
+        let tau = recipe.setup.collision.tau();
+        let mut coverage = Coverage::new(layout.count);
+        coverage.update(domain, phase);
+        let covered = coverage.cells().len() as f64 / domain.cell_count() as f64;
+        let in_every_cell = covered > DENSE;
+        let mut touches = Touches::new(gpu, layout.store)?;
+        let mut loads = Growing::new(gpu, "loads")?;
+        loads.reserve(gpu, 32 * phase.solids.len() as u64)?;
+        let kept = if recipe.solids == SolidData::Moving {
+            let movable = Movable::new(gpu, recipe, phase, &mut touches, in_every_cell)?;
+            movable.upload(gpu, &phase.solids, &mut touches)?;
+            movable.find(gpu, &touches)?;
+            Kept::Movable(Box::new(movable))
         } else {
-            self.records.fill(gpu, &tables.records)?;
-            self.excess.fill(gpu, &tables.excess)?;
+            let field = |label, format| Field::new(gpu, layout, label, 1, format);
+            let weights = field("solid weights of cells", TextureFormat::R32Float)?;
+            let slots = field("records of cells", TextureFormat::R32Uint)?;
+            weights.write(gpu, 0, bytemuck::cast_slice(&coverage.weights(phase.weighting, tau)));
+            slots.write(gpu, 0, bytemuck::cast_slice(coverage.slots()));
+            let tables = coverage.tables(phase, tau);
+            touches.fill(gpu, &tables)?;
+            touches.place(gpu, &phase.solids, &Room::one_after_another(&tables.counts))?;
+            Kept::Fixed(Box::new([weights, slots]))
+        };
+        Ok(Solids {
+            coverage: RefCell::new(coverage),
+            in_every_cell,
+            kept,
+            touches,
+            loads,
+            solid_count: count(phase.solids.len()),
+        })
+    }
+
+    /// How they are kept.
+    pub(super) fn data(&self) -> SolidData {
+        match &self.kept {
+            Kept::Fixed(_) => SolidData::Fixed,
+            Kept::Movable(_) => SolidData::Moving,
         }
-        self.moments.reserve(gpu, tables.records.len())?;
-        self.shares.fill(gpu, &tables.shares)?;
-        self.weights.fill(gpu, &tables.weights)?;
-        self.starts.fill(gpu, self.coverage.starts())?;
-        self.motions.fill(gpu, &tables.motions)?;
-        self.loads.reserve(gpu, 32 * phase.solids.len() as u64)?;
-        self.solid_count = count(phase.solids.len());
-        self.many = count(tables.excess.len() / 2);
-        Ok(())
+    }
+
+    /// What of them may move.
+    pub(super) fn movable(&self) -> Option<&Movable> {
+        match &self.kept {
+            Kept::Movable(movable) => Some(movable),
+            Kept::Fixed(_) => None,
+        }
+    }
+
+    /// Uploads where movable solids are now.
+    pub(super) fn upload(&mut self, gpu: &Gpu, phase: &SolidPhase) -> Result<(), KernelError> {
+        match &self.kept {
+            Kept::Movable(movable) => movable.upload(gpu, &phase.solids, &mut self.touches),
+            Kept::Fixed(_) => Ok(()),
+        }
+    }
+
+    /// Has the device find what they cover there.
+    pub(super) fn find(&self, gpu: &Gpu) -> Result<(), KernelError> {
+        self.movable().map_or(Ok(()), |movable| movable.find(gpu, &self.touches))
+    }
+
+    /// What they cover where `phase` has them.
+    pub(super) fn coverage(&self, domain: &Domain, phase: &SolidPhase) -> Ref<'_, Coverage> {
+        if self.movable().is_some() {
+            self.coverage.borrow_mut().update(domain, phase);
+        }
+        self.coverage.borrow()
     }
 
     /// The number of the binding of a table, and the table.
     pub(super) fn resource(&self, table: SolidTable) -> Option<(u32, wgpu::BindingResource<'_>)> {
-        Some(match table {
-            SolidTable::CellWeights => (40, self.cell_weights.as_ref()?.resource()),
-            SolidTable::Slots => (41, self.slots.resource()),
-            SolidTable::Records => (42, self.records.resource()),
-            SolidTable::Excess => (43, self.excess.resource()),
-            SolidTable::Moments => (44, self.moments.resource()),
+        Some(match (table, &self.kept) {
+            (SolidTable::CellWeights, Kept::Fixed(fields)) => (40, fields[0].resource()),
+            (SolidTable::Slots, Kept::Fixed(fields)) => (41, fields[1].resource()),
+            (SolidTable::Slots, Kept::Movable(movable)) => (41, movable.slots.resource()),
+            (SolidTable::Records, Kept::Movable(movable)) => (42, movable.records.resource()),
+            (SolidTable::Excess, Kept::Movable(movable)) => (43, movable.excess.resource()),
+            (SolidTable::Moments, _) => (44, self.touches.moments.resource()),
+            _ => return None,
         })
     }
 
-    /// The cells that must be listed since the step of all cells does not do them right; those in which
-    /// several solids meet come first.
+    /// The cells that must be listed since the step of all cells does not have the solids in it. Those
+    /// of movable solids the device lists itself.
     pub(super) fn listed_cells(&self) -> Vec<u32> {
-        if self.in_every_cell && self.data == SolidData::Fixed {
+        if self.in_every_cell || self.movable().is_some() {
             return Vec::new();
         }
-        let mut cells: Vec<u32> = self.coverage.meeting_cells().collect();
-        if !self.in_every_cell {
-            let all = self.coverage.cells().iter();
-            cells.extend(all.filter(|&&cell| !self.coverage.is_meeting(cell)));
-        }
-        cells
+        self.coverage.borrow().cells().to_vec()
     }
 
     /// Whether a cell is among them.
     pub(super) fn lists(&self, cell: u32) -> bool {
-        match (self.in_every_cell, self.data) {
-            (false, _) => self.coverage.slots()[cell as usize] > 0,
-            (true, SolidData::Moving) => self.coverage.is_meeting(cell),
-            (true, _) => false,
-        }
+        let is_listed = !self.in_every_cell && self.movable().is_none();
+        is_listed && self.coverage.borrow().slots()[cell as usize] > 0
     }
 }

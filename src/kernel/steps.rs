@@ -1,10 +1,13 @@
 //! Steps of the fluid, and the loads on the solids.
 
+use super::buffers::Growing;
 use super::compose::{ROW, Work};
 use super::error::KernelError;
 use super::field::Field;
 use super::fluid::Kernel;
+use super::movable::DeviceList;
 use super::pipeline::{Pipeline, Slot};
+use super::solids::Solids;
 
 /// Cell updates of one submission, at most: a tenth of a second of a large device, which the systems
 /// that watch over screens allow, a few seconds of a processor.
@@ -35,25 +38,29 @@ impl Kernel {
     fn first_step(&mut self, with_loads: bool) -> Result<(), KernelError> {
         let since = self.watch.begin();
         // All cells, and again those in which several solids meet: what is more of them goes by the list.
-        let many = self.solids.as_ref().map_or(0, |solids| solids.many);
-        let tasks = [
-            (&self.tasks.all, [self.layout.count, 0, 0, many]),
-            (&self.tasks.listed, [many, 1, 0, many]),
-        ];
+        let task = [self.layout.count, 0, 0, 0];
+        self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&task));
         let with_loads = with_loads && self.has_solids();
         let listed = self.listed_pipeline(with_loads, true)?;
-        let mut groups = Vec::new();
-        for (buffer, task) in &tasks {
-            self.gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(task));
-            groups.push(self.bind(listed, buffer, None)?);
-        }
+        let all = self.bind(listed, &self.tasks.all, None)?;
+        let movable = self.solids.as_ref().and_then(Solids::movable);
+        let meetings = match movable {
+            Some(movable) => {
+                let DeviceList { cells, task, groups_at } = &movable.meetings;
+                let group = self.bind(listed, task, Some(cells.buffer()))?;
+                Some((group, &movable.drive, *groups_at))
+            }
+            None => None,
+        };
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_pipeline(listed.raw());
-            for (group, (_, [count, ..])) in groups.iter().zip(&tasks) {
+            pass.set_bind_group(0, &all, &[]);
+            dispatch(&mut pass, self.layout.count);
+            if let Some((group, drive, groups_at)) = &meetings {
                 pass.set_bind_group(0, group, &[]);
-                dispatch(&mut pass, *count);
+                pass.dispatch_workgroups_indirect(drive, *groups_at);
             }
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
@@ -85,10 +92,13 @@ impl Kernel {
                 pass.set_pipeline(passes.all.raw());
                 pass.set_bind_group(0, &passes.all_groups[parity], &[]);
                 pass.dispatch_workgroups(nx.div_ceil(along), ny.div_ceil(across), nz);
-                if let Some((listed, groups)) = &passes.listed {
-                    pass.set_pipeline(listed.raw());
-                    pass.set_bind_group(0, &groups[parity], &[]);
-                    dispatch(&mut pass, self.list_count);
+                for list in &passes.lists {
+                    pass.set_pipeline(list.pipeline.raw());
+                    pass.set_bind_group(0, &list.groups[parity], &[]);
+                    match list.length {
+                        Length::Known(count) => dispatch(&mut pass, count),
+                        Length::OnDevice(drive, at) => pass.dispatch_workgroups_indirect(drive, at),
+                    }
                 }
             }
             drop(pass);
@@ -121,15 +131,26 @@ impl Kernel {
         let copies = [self.current, 1 - self.current];
         let [first, second] = copies.map(|from| self.bind_from(from, all, None, None));
         let all_groups = [first?, second?];
-        let listed = if self.list_count > 0 {
-            let listed = self.listed_pipeline(with_loads, false)?;
-            let task = Some(&self.tasks.listed);
-            let [first, second] = copies.map(|from| self.bind_from(from, listed, task, None));
-            Some((listed, [first?, second?]))
-        } else {
-            None
+        let mut lists = Vec::new();
+        let mut add = |task, cells: &Growing, length| -> Result<(), KernelError> {
+            let pipeline = self.listed_pipeline(with_loads, false)?;
+            let bind = |from| self.bind_from(from, pipeline, Some(task), Some(cells.buffer()));
+            let [first, second] = copies.map(bind);
+            lists.push(List { pipeline, groups: [first?, second?], length });
+            Ok(())
         };
-        Ok(Passes { all, all_groups, listed })
+        if self.list_count > 0 {
+            add(&self.tasks.listed, &self.list, Length::Known(self.list_count))?;
+        }
+        // After those at faces, so that what several solids do in a cell there stands.
+        if let Some(movable) = self.solids.as_ref().and_then(Solids::movable) {
+            let alone = (!in_every_cell).then_some(&movable.alone);
+            for list in alone.into_iter().chain([&movable.meetings]) {
+                let length = Length::OnDevice(&movable.drive, list.groups_at);
+                add(&list.task, &list.cells, length)?;
+            }
+        }
+        Ok(Passes { all, all_groups, lists })
     }
 
     fn listed_pipeline(&self, with_loads: bool, is_first: bool) -> Result<&Pipeline, KernelError> {
@@ -148,16 +169,19 @@ impl Kernel {
         let since = self.watch.begin();
         let Some(solids) = &self.solids else { return Ok(()) };
         if self.gather.get().is_none() {
-            let _ = self.gather.set(Pipeline::gather(&self.gpu, &self.recipe())?);
+            let gather = Pipeline::of(&self.gpu, &self.recipe().gather(), "gather")?;
+            let _ = self.gather.set(gather);
         }
         let Some(gather) = self.gather.get() else { return Ok(()) };
+        let touches = &solids.touches;
         let resources = [
-            solids.shares.resource(),
-            solids.weights.resource(),
-            solids.starts.resource(),
-            solids.motions.resource(),
-            solids.moments.resource(),
+            touches.shares.resource(),
+            touches.weights.resource(),
+            touches.solids.resource(),
+            touches.counts.resource(),
+            touches.moments.resource(),
             solids.loads.resource(),
+            touches.links.resource(),
         ];
         let resources = (0..).zip(resources).collect();
         let group = gather.bind(&self.gpu, resources)?;
@@ -219,8 +243,23 @@ struct Passes<'a> {
     /// Of all cells.
     all: &'a Pipeline,
     all_groups: [wgpu::BindGroup; 2],
-    /// Of the listed cells.
-    listed: Option<(&'a Pipeline, [wgpu::BindGroup; 2])>,
+    /// Of listed cells.
+    lists: Vec<List<'a>>,
+}
+
+/// Work on listed cells.
+struct List<'a> {
+    pipeline: &'a Pipeline,
+    groups: [wgpu::BindGroup; 2],
+    length: Length<'a>,
+}
+
+/// How many cells are listed.
+#[derive(Clone, Copy)]
+enum Length<'a> {
+    Known(u32),
+    /// The numbers of workgroups stand in a buffer, so many bytes from its start.
+    OnDevice(&'a wgpu::Buffer, u64),
 }
 
 /// One invocation for each of `count` things, in workgroups of 64.

@@ -1,7 +1,8 @@
 //! Rows of numbers on the device that shaders pick at random: what is known of the cells that solids touch.
 //!
 //! A buffer of rows or, where the values of cells lie in textures (see `layout.rs` for why), a texture with
-//! a plane for each column, in which the rows go on from line to line.
+//! a plane for each column, in which the rows go on from line to line; what does not fit into these planes
+//! goes on in more of them behind.
 
 use bytemuck::Pod;
 use wgpu::{BindingResource, Extent3d, Origin3d, TextureFormat, TextureUsages};
@@ -9,10 +10,13 @@ use wgpu::{BindingResource, Extent3d, Origin3d, TextureFormat, TextureUsages};
 use super::buffers::Growing;
 use super::device::Gpu;
 use super::error::KernelError;
-use super::layout::{Store, WORD};
+use super::layout::{MAX_TEXTURE_BYTES, Store, WORD};
 
 /// Rows in a line of a texture.
 const LINE: usize = 2048;
+
+/// Lines in a plane of a texture: what every adapter allows.
+const LINES: usize = 2048;
 
 /// Rows of so many numbers of 32 bits.
 #[derive(Debug)]
@@ -47,20 +51,21 @@ impl Table {
         match &mut self.kept {
             Kept::Buffer(buffer) => buffer.reserve(gpu, WORD * (rows * self.columns) as u64),
             Kept::Texture { texture: old, .. } => {
-                let (lines, most) = (rows.div_ceil(LINE), gpu.facts().max_texture_side as usize);
-                if lines <= old.height() as usize {
+                let lines = rows.div_ceil(LINE);
+                let has =
+                    old.height() as usize * (old.depth_or_array_layers() as usize / self.columns);
+                if lines <= has {
                     return Ok(());
                 }
-                if lines > most {
+                let needed = WORD * (lines.next_multiple_of(LINES) * LINE * self.columns) as u64;
+                if lines > LINES && needed > MAX_TEXTURE_BYTES {
                     return Err(KernelError::TooLarge {
                         what: self.label,
-                        needed: WORD * (rows * self.columns) as u64,
-                        available: WORD * (most * LINE * self.columns) as u64,
+                        needed,
+                        available: MAX_TEXTURE_BYTES,
                         adapter: gpu.facts().name.clone(),
                     });
                 }
-                // A quarter more, so that grains on the move seldom ask for more.
-                let lines = (lines + lines / 4).min(most);
                 self.kept = texture(gpu, self.label, self.columns, lines)?;
                 Ok(())
             }
@@ -74,12 +79,14 @@ impl Table {
         match &mut self.kept {
             Kept::Buffer(buffer) => buffer.fill(gpu, numbers),
             Kept::Texture { texture, .. } => {
-                let lines = rows.len().div_ceil(LINE);
-                let mut plane = vec![0_u32; lines * LINE];
-                for column in 0..self.columns {
-                    let values = numbers.iter().skip(column).step_by(self.columns);
-                    plane.iter_mut().zip(values).for_each(|(place, value)| *place = *value);
-                    write_plane(gpu, texture, column, &plane);
+                for (layer, numbers) in numbers.chunks(LINE * LINES * self.columns).enumerate() {
+                    let lines = (numbers.len() / self.columns).div_ceil(LINE);
+                    let mut plane = vec![0_u32; lines * LINE];
+                    for column in 0..self.columns {
+                        let values = numbers.iter().skip(column).step_by(self.columns);
+                        plane.iter_mut().zip(values).for_each(|(place, value)| *place = *value);
+                        write_plane(gpu, texture, layer * self.columns + column, &plane);
+                    }
                 }
                 Ok(())
             }
@@ -107,8 +114,8 @@ fn texture(
             label: Some(label),
             size: Extent3d {
                 width: narrow(LINE),
-                height: narrow(lines),
-                depth_or_array_layers: narrow(columns),
+                height: narrow(lines.min(LINES)),
+                depth_or_array_layers: narrow(columns * lines.div_ceil(LINES)),
             },
             mip_level_count: 1,
             sample_count: 1,
@@ -122,8 +129,8 @@ fn texture(
     })
 }
 
-/// Uploads one column, whole lines.
-fn write_plane(gpu: &Gpu, texture: &wgpu::Texture, column: usize, plane: &[u32]) {
+/// Uploads one plane, whole lines.
+fn write_plane(gpu: &Gpu, texture: &wgpu::Texture, number: usize, plane: &[u32]) {
     let narrow = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     let (width, height) = (narrow(LINE), narrow(plane.len() / LINE));
     if height == 0 {
@@ -133,7 +140,7 @@ fn write_plane(gpu: &Gpu, texture: &wgpu::Texture, column: usize, plane: &[u32])
         wgpu::TexelCopyTextureInfo {
             texture,
             mip_level: 0,
-            origin: Origin3d { x: 0, y: 0, z: narrow(column) },
+            origin: Origin3d { x: 0, y: 0, z: narrow(number) },
             aspect: wgpu::TextureAspect::All,
         },
         bytemuck::cast_slice(plane),
@@ -146,6 +153,10 @@ fn write_plane(gpu: &Gpu, texture: &wgpu::Texture, column: usize, plane: &[u32])
     );
 }
 
+/// WGSL: where the row is that has this number, in a texture of four columns.
+const PLACE: &str = "    let x = row % 2048u;\n    let y = row / 2048u % 2048u;\n    \
+                     let z = 4u * (row / 4194304u);\n";
+
 /// WGSL: a table of four columns to be read, and the function `NAME_at` that gives a row.
 pub(super) fn reader(store: Store, binding: u32, name: &str) -> String {
     match store {
@@ -154,11 +165,11 @@ pub(super) fn reader(store: Store, binding: u32, name: &str) -> String {
              fn {name}_at(row: u32) -> vec4<u32> {{\n    return {name}[row];\n}}\n"
         ),
         Store::Textures => {
-            let at = |z: u32| format!("textureLoad({name}, vec3<u32>(x, y, {z}u)).x");
+            let at = |column: u32| format!("textureLoad({name}, vec3<u32>(x, y, z + {column}u)).x");
             format!(
                 "@group(0) @binding({binding}) var {name}: texture_storage_3d<r32uint, read>;\n\
-                 fn {name}_at(row: u32) -> vec4<u32> {{\n    let x = row % {LINE}u;\n    \
-                 let y = row / {LINE}u;\n    return vec4<u32>({}, {}, {}, {});\n}}\n",
+                 fn {name}_at(row: u32) -> vec4<u32> {{\n{PLACE}    \
+                 return vec4<u32>({}, {}, {}, {});\n}}\n",
                 at(0),
                 at(1),
                 at(2),
@@ -179,11 +190,11 @@ pub(super) fn writer(store: Store, binding: u32, name: &str) -> String {
         Store::Textures => {
             let mut text = format!(
                 "@group(0) @binding({binding}) var {name}: texture_storage_3d<r32uint, write>;\n\
-                 {head}    let x = row % {LINE}u;\n    let y = row / {LINE}u;\n"
+                 {head}{PLACE}"
             );
-            for (z, column) in ["x", "y", "z", "w"].iter().enumerate() {
+            for (number, column) in ["x", "y", "z", "w"].iter().enumerate() {
                 text += &format!(
-                    "    textureStore({name}, vec3<u32>(x, y, {z}u), \
+                    "    textureStore({name}, vec3<u32>(x, y, z + {number}u), \
                      vec4<u32>(values.{column}, 0u, 0u, 0u));\n"
                 );
             }

@@ -36,7 +36,9 @@ pub fn gauge(f: &Populations) -> f64 {
     (0..Q).map(|a| (f[a] - W[a]).abs()).sum()
 }
 
-/// Largest error after one step over epsilon times the largest gauge that met in it.
+/// Largest error after one step over epsilon times the largest gauge that met in it; of the populations
+/// and of the forces and torques on solids of given cells, whose gauges are the sums over their cells of
+/// what the loads are added up from: gauge and momentum of the solid, times the arm for a torque.
 pub fn error_of_one_step(budget: &mut Budget, setup: &Setup, start: &[Populations]) -> f64 {
     let mut oracle = Solver::from_populations(setup.clone(), start.to_vec()).unwrap();
     budget.spend(start.len() as u64);
@@ -62,6 +64,22 @@ pub fn error_of_one_step(budget: &mut Budget, setup: &Setup, start: &[Population
             let error = (found[a] - expected[a]).abs() / (f64::from(f32::EPSILON) * largest);
             worst = worst.max(error);
         }
+    }
+    let phase = oracle.setup().solid_phase.as_ref();
+    let solids = phase.map_or(&[][..], |phase| &phase.solids);
+    let loads = kernel.loads().unwrap();
+    for ((load, expected), solid) in loads.iter().zip(oracle.loads()).zip(solids) {
+        let Shape::Cells { fractions } = &solid.shape else { continue };
+        let (mut of_force, mut of_torque) = (0.0, 0.0);
+        for &(cell, epsilon) in fractions {
+            let arm = setup.domain.centre(setup.domain.coordinates(cell)) - solid.centre;
+            let term = gauge(&start[cell]) + solid.velocity_at(&arm).norm();
+            of_force += epsilon * term;
+            of_torque += epsilon * term * arm.norm();
+        }
+        let force = (load.force - expected.force).norm() / of_force;
+        let torque = (load.torque - expected.torque).norm() / of_torque;
+        worst = worst.max(force.max(torque) / f64::from(f32::EPSILON));
     }
     worst
 }
@@ -177,7 +195,8 @@ impl Both {
 
     pub fn errors(&self) -> Errors {
         let steps = self.oracle.steps() as f64;
-        let bound = 2.0 * steps.sqrt() * f64::from(f32::EPSILON) * self.largest_gauge;
+        let rounding = steps.sqrt() * f64::from(f32::EPSILON);
+        let bound = 2.0 * (rounding + weight_error(self.oracle.setup())) * self.largest_gauge;
         let all: Vec<usize> = (0..self.oracle.populations().len()).collect();
         let found = self.kernel.populations(&all).unwrap();
         let pairs = found.iter().flatten().zip(self.oracle.populations().iter().flatten());
@@ -195,6 +214,30 @@ impl Both {
             torques = torques.max((load.torque - expected.torque).norm() / (reach * bound));
         }
         Errors { populations, forces, torques }
+    }
+}
+
+/// How far the weight `B` may be off in a cell that a moving ball covers: its solid fraction is found in
+/// single precision, to within the bound of `kernel_fractions.rs`; 0 where no solid moves.
+fn weight_error(setup: &Setup) -> f64 {
+    let still = Vec3::zeros();
+    let Some(phase) = &setup.solid_phase else { return 0.0 };
+    if phase.solids.iter().all(|solid| solid.velocity == still && solid.spin == still) {
+        return 0.0;
+    }
+    let radius = |solid: &Solid| match solid.shape {
+        Shape::Sphere { radius } => radius,
+        Shape::Cells { .. } => 0.0,
+    };
+    let largest = phase.solids.iter().map(radius).fold(0.0, f64::max);
+    let of_fraction = 2e-6 + 2.0 * f64::from(f32::EPSILON) * largest;
+    match phase.weighting {
+        Weighting::SolidFraction => of_fraction,
+        // dB/dε = (τ - 1/2) (τ + 1/2) / (τ + 1/2 - ε)² is largest in a full cell.
+        Weighting::NobleTorczynski => {
+            let excess = setup.collision.tau() - 0.5;
+            of_fraction * (1.0 + excess) / excess
+        }
     }
 }
 

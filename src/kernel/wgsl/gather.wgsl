@@ -1,18 +1,19 @@
 // Force and torque on each solid during the last step.
 //
 // Both solid operators change the momentum of a cell by B_s (ρ u_s - j), with the momentum j before the
-// collision: that is what the solid loses. A workgroup adds up the shares of one solid (the parts of
+// collision: that is what the solid loses. A workgroup adds up the touches of one solid (the parts of
 // cells that it covers), each invocation every LANES-th, then a tree. The order of the sums depends on
-// nothing but the list, so that two runs give the same bits.
+// nothing but where the solid is, so that two runs give the same bits.
 
-// B_s of each share
+// B_s of each touch
 @group(0) @binding(1) var<storage, read> weights: array<f32>;
-// First share of each solid, and the number of all shares
-@group(0) @binding(2) var<storage, read> starts: array<u32>;
-// Velocity U and spin ω of each solid
-@group(0) @binding(3) var<storage, read> motions: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> solids: array<Solid>;
+// Touches of each solid
+@group(0) @binding(3) var<storage, read> counts: array<u32>;
 // Force and torque of each solid
 @group(0) @binding(5) var<storage, read_write> loads: array<vec4<f32>>;
+// The record of the cell of each touch
+@group(0) @binding(6) var<storage, read> links: array<u32>;
 
 var<workgroup> force: array<vec3<f32>, LANES>;
 var<workgroup> torque: array<vec3<f32>, LANES>;
@@ -23,20 +24,18 @@ fn gather(
     @builtin(local_invocation_index) lane: u32,
 ) {
     let solid = group.x + group.y * 65535u;
-    let is_solid = solid + 1u < arrayLength(&starts);
+    let is_solid = solid < SOLIDS;
     var f = vec3<f32>(0.0);
     var t = vec3<f32>(0.0);
     if (is_solid) {
-        let velocity = motions[2u * solid].xyz;
-        let spin = motions[2u * solid + 1u].xyz;
-        for (var number = starts[solid] + lane; number < starts[solid + 1u]; number += LANES) {
-            // The number of the cell's record, and the arm from the solid's centre to the cell's
-            let share = shares_at(number);
-            let arm = bitcast<vec3<f32>>(share.yzw);
+        let motion = solids[solid];
+        for (var i = lane; i < counts[solid]; i += LANES) {
+            let number = motion.first + i;
+            let arm = bitcast<vec3<f32>>(shares_at(number).yzw);
             // j and ρ - 1 of the cell
-            let moment = bitcast<vec4<f32>>(moments_at(share.x));
+            let moment = bitcast<vec4<f32>>(moments_at(links[number]));
             // u_s = U + ω × r
-            let u = velocity + cross(spin, arm);
+            let u = motion.velocity + cross(motion.spin, arm);
             // F = Σ B_s (j - ρ u_s),  T = Σ r × F
             let push = weights[number] * (moment.xyz - (1.0 + moment.w) * u);
             f += push;

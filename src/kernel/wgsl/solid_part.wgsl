@@ -22,6 +22,13 @@ struct SolidPart {
 
 //#if SLOTS
 // Per cell the number of its record, or 0.
+//#if MOVING
+@group(0) @binding(41) var<storage, read> slots: array<u32>;
+
+fn slot_of(x: u32, y: u32, z: u32) -> u32 {
+    return slots[x + NX * (y + NY * z)];
+}
+//#else
 //#if TEXTURES
 @group(0) @binding(41) var slots: texture_storage_3d<r32uint, read>;
 
@@ -34,6 +41,7 @@ fn slot_of(x: u32, y: u32, z: u32) -> u32 {
 fn slot_of(x: u32, y: u32, z: u32) -> u32 {
     return slots[x + STEP_Y * y + STEP_Z * z];
 }
+//#end
 //#end
 //#end
 

@@ -22,11 +22,6 @@ fn listed(number: u32) -> u32 {
     return number;
 }
 
-// x, y, z of a cell.
-fn coordinates(cell: u32) -> vec3<u32> {
-    return vec3<u32>(cell % NX, cell / NX % NY, cell / (NX * NY));
-}
-
 // The populations of a cell before their next collision.
 fn observed(at: vec3<u32>) -> array<f32, 19> {
 //#if BEFORE

@@ -1,0 +1,41 @@
+//! Solid fractions as the device finds them, one by one, so that they can be checked.
+
+use super::buffers::Growing;
+use super::device::Gpu;
+use super::error::KernelError;
+use super::numbers::{count, single};
+use super::pipeline::Pipeline;
+
+/// Solid fraction, 0 to 1, of the cell `-1/2..1/2`³ in each ball, given by its centre and its radius in
+/// cells: as a step finds it for movable solids. Errors if the device fails.
+pub fn solid_fractions_on_device(
+    gpu: &Gpu,
+    balls: &[([f64; 3], f64)],
+) -> Result<Vec<f64>, KernelError> {
+    let mut shader = format!("const COUNT = {}u;\nconst SAMPLES = 1u;\n", count(balls.len()));
+    shader += include_str!("wgsl/fraction.wgsl");
+    shader += include_str!("wgsl/fractions.wgsl");
+    let pipeline = Pipeline::of(gpu, &shader, "fractions")?;
+    let rows: Vec<[f32; 4]> = balls
+        .iter()
+        .map(|([x, y, z], radius)| {
+            [single(-0.5 - x), single(-0.5 - y), single(-0.5 - z), single(*radius)]
+        })
+        .collect();
+    let [mut given, mut found] =
+        [Growing::new(gpu, "balls to check")?, Growing::new(gpu, "fractions to check")?];
+    given.fill(gpu, &rows)?;
+    found.reserve(gpu, 4 * rows.len() as u64)?;
+    let group = pipeline.bind(gpu, vec![(0, given.resource()), (1, found.resource())])?;
+    gpu.checked(|| {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(pipeline.raw());
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(count(rows.len().div_ceil(64)), 1, 1);
+        drop(pass);
+        gpu.queue.submit([encoder.finish()]);
+    })?;
+    let bytes = gpu.read(found.buffer(), 4 * rows.len() as u64)?;
+    Ok(bytemuck::cast_slice::<u8, f32>(&bytes).iter().copied().map(f64::from).collect())
+}

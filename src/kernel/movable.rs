@@ -1,0 +1,216 @@
+//! What movable solids cover, found on the device from where they are.
+//!
+//! Each solid has room for the touches (parts of cells that it covers) that it can have wherever it is;
+//! touches are numbered from 1, solid by solid. Four shaders, each with work in proportion to the touches:
+//! `uncover` empties the cells of the last place, `measure` counts along each row of cells, `touch` works
+//! out the fractions and hangs each touch into its cell, `resolve` makes of them the record of each cell:
+//! `(B, Σ B_s u_s)`. Where several solids meet in a cell the touches come in an order left to chance; they
+//! are added up in that of their numbers, so that two runs give the same bits.
+
+use psmrt_reference::setup::SolidPhase;
+use psmrt_reference::solids::{Shape, Solid};
+use wgpu::{BindingResource, BufferUsages};
+
+use super::buffers::Growing;
+use super::compose::{Covering, Recipe, Stage};
+use super::device::Gpu;
+use super::error::KernelError;
+use super::numbers::{count, single};
+use super::pipeline::Pipeline;
+use super::table::Table;
+use super::touches::{Room, Touches};
+
+/// Touches of one solid that one workgroup works out, about.
+const SHARE: u32 = 512;
+
+/// Workgroups to one solid, at most.
+const MOST_PARTS: u32 = 64;
+
+/// A list of cells that the device makes.
+#[derive(Debug)]
+pub(super) struct DeviceList {
+    pub(super) cells: Growing,
+    /// Uniform buffer that says how many.
+    pub(super) task: wgpu::Buffer,
+    /// Where in `Movable::drive` the number of workgroups stands, bytes.
+    pub(super) groups_at: u64,
+}
+
+/// What the device holds of solids that may move, besides their touches.
+#[derive(Debug)]
+pub(super) struct Movable {
+    /// Per cell the number of its record, 0 for none.
+    pub(super) slots: Growing,
+    /// `(B, Σ B_s u_s)` of each covered cell.
+    pub(super) records: Table,
+    /// Of cells in which several solids meet.
+    pub(super) excess: Growing,
+    given: Growing,
+    rows: Growing,
+    fractions: Growing,
+    found: Growing,
+    pub(super) drive: wgpu::Buffer,
+    /// Cells that one solid touches; listed where the step of all cells has no solids in it.
+    pub(super) alone: DeviceList,
+    /// Cells in which several solids meet.
+    pub(super) meetings: DeviceList,
+    pipelines: [Pipeline; 5],
+    parts: u32,
+    /// Whether the cells that one solid touches are listed.
+    lists_all: bool,
+    room: Vec<Room>,
+}
+
+impl Movable {
+    /// Room for the solids, which are still to be placed. `in_every_cell`: whether the step of all cells
+    /// has the solids in it.
+    pub(super) fn new(
+        gpu: &Gpu,
+        recipe: &Recipe<'_>,
+        phase: &SolidPhase,
+        touches: &mut Touches,
+        in_every_cell: bool,
+    ) -> Result<Self, KernelError> {
+        let (room, [all, rows]) = Room::of_all(&phase.solids);
+        let most = room.iter().map(|room| room.touches).max().unwrap_or(0);
+        let parts = most.div_ceil(SHARE).clamp(1, MOST_PARTS);
+        let stage = |stage| recipe.covering(Covering { stage, in_every_cell, parts });
+        let (touch, resolve) = (stage(Stage::Touch), stage(Stage::Resolve));
+        let pipelines = [
+            Pipeline::of(gpu, &resolve, "uncover")?,
+            Pipeline::of(gpu, &touch, "measure")?,
+            Pipeline::of(gpu, &touch, "touch")?,
+            Pipeline::of(gpu, &resolve, "resolve")?,
+            Pipeline::of(gpu, &stage(Stage::Drive), "drive")?,
+        ];
+        let words = |label, words: u64| {
+            let mut buffer = Growing::new(gpu, label)?;
+            buffer.reserve(gpu, 4 * words)?;
+            Ok(buffer)
+        };
+        let list = |label, length, groups_at| {
+            let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+            let task = gpu.buffer("listed cells", 16, usage)?;
+            Ok(DeviceList { cells: words(label, length)?, task, groups_at })
+        };
+        let all = u64::from(all) + 1;
+        let cells = u64::from(recipe.layout.count);
+        // A cell in which solids meet has two touches at least.
+        let shared = (all / 2).min(cells);
+        let mut movable = Movable {
+            slots: words("records of cells", cells)?,
+            records: Table::new(gpu, recipe.layout.store, "records of covered cells", 4)?,
+            excess: words("records of cells in which solids meet", 8 * shared)?,
+            given: Growing::new(gpu, "given solid fractions")?,
+            rows: words("rows of cells about solids", 2 * u64::from(rows))?,
+            fractions: words("solid fractions of touches", 2 * all)?,
+            found: words("numbers of covered cells", 2)?,
+            drive: gpu.buffer(
+                "listed cells",
+                64,
+                BufferUsages::STORAGE | BufferUsages::INDIRECT | BufferUsages::COPY_SRC,
+            )?,
+            alone: list("cells that solids touch", if in_every_cell { 1 } else { cells }, 0)?,
+            meetings: list("cells in which solids meet", shared, 32)?,
+            pipelines,
+            parts,
+            lists_all: !in_every_cell,
+            room,
+        };
+        let rows = usize::try_from(all).unwrap_or(usize::MAX);
+        movable.records.reserve(gpu, rows)?;
+        touches.reserve(gpu, rows, phase.solids.len())?;
+        movable.given.fill(gpu, &given(&phase.solids))?;
+        Ok(movable)
+    }
+
+    /// Uploads where the solids are.
+    pub(super) fn upload(
+        &self,
+        gpu: &Gpu,
+        solids: &[Solid],
+        touches: &mut Touches,
+    ) -> Result<(), KernelError> {
+        debug_assert_eq!(solids.len(), self.room.len(), "as many solids as before");
+        touches.place(gpu, solids, &self.room)
+    }
+
+    /// Has the device find what they cover there. Does not wait for it.
+    pub(super) fn find(&self, gpu: &Gpu, touches: &Touches) -> Result<(), KernelError> {
+        let solids = count(self.room.len());
+        if solids == 0 {
+            return Ok(());
+        }
+        let of_each = [solids.min(65_535), self.parts, solids.div_ceil(65_535)];
+        let groups = solids.div_ceil(64);
+        let bindings = [
+            (of_each, vec![0, 3, 4, 12]),
+            ([groups, 1, 1], vec![0, 2, 3]),
+            (of_each, vec![0, 1, 2, 3, 4, 5, 6, 12]),
+            (of_each, self.resolve_bindings()),
+            ([1, 1, 1], vec![20, 21]),
+        ];
+        let mut bound = Vec::new();
+        for (pipeline, (_, numbers)) in self.pipelines.iter().zip(&bindings) {
+            let resources = numbers.iter().map(|&number| self.resource(number, touches)).collect();
+            bound.push(pipeline.bind(gpu, resources)?);
+        }
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            encoder.clear_buffer(self.found.buffer(), 0, None);
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            for ((pipeline, group), ([x, y, z], _)) in
+                self.pipelines.iter().zip(&bound).zip(&bindings)
+            {
+                pass.set_pipeline(pipeline.raw());
+                pass.set_bind_group(0, group, &[]);
+                pass.dispatch_workgroups(*x, *y, *z);
+            }
+            drop(pass);
+            for list in [&self.alone, &self.meetings] {
+                encoder.copy_buffer_to_buffer(&self.drive, list.groups_at + 16, &list.task, 0, 16);
+            }
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+
+    fn resolve_bindings(&self) -> Vec<u32> {
+        let mut numbers = vec![0, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13];
+        if self.lists_all {
+            numbers.push(10);
+        }
+        numbers
+    }
+
+    /// The resource of a binding of `cover.wgsl` and `resolve.wgsl`; from 20 on, of `drive.wgsl`.
+    fn resource<'a>(&'a self, number: u32, touches: &'a Touches) -> (u32, BindingResource<'a>) {
+        let resource = match number {
+            0 => touches.solids.resource(),
+            1 => self.given.resource(),
+            2 => self.rows.resource(),
+            3 => touches.counts.resource(),
+            4 => self.slots.resource(),
+            5 => self.fractions.resource(),
+            6 => touches.links.resource(),
+            7 => touches.weights.resource(),
+            8 => self.excess.resource(),
+            9 | 20 => self.found.resource(),
+            10 => self.alone.cells.resource(),
+            11 => self.meetings.cells.resource(),
+            12 => touches.shares.resource(),
+            13 => self.records.resource(),
+            _ => self.drive.as_entire_binding(),
+        };
+        (number % 20, resource)
+    }
+}
+
+/// Cell and bits of the solid fraction of each given touch.
+fn given(solids: &[Solid]) -> Vec<[u32; 2]> {
+    let cells = |solid: &Solid| match &solid.shape {
+        Shape::Cells { fractions } => fractions.clone(),
+        Shape::Sphere { .. } => Vec::new(),
+    };
+    let all = solids.iter().flat_map(cells);
+    all.map(|(cell, epsilon)| [count(cell), single(epsilon).to_bits()]).collect()
+}

@@ -1,0 +1,184 @@
+//! The parts of cells that solids cover, as the loads are added up from them.
+
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::{Shape, Solid};
+
+use super::buffers::Growing;
+use super::coverage::Tables;
+use super::device::Gpu;
+use super::error::KernelError;
+use super::layout::Store;
+use super::numbers::{count, single};
+use super::table::Table;
+
+/// What the device holds of the touches of all solids; row 0 is that of none.
+#[derive(Debug)]
+pub(super) struct Touches {
+    /// Each solid with its motion (`wgsl/solid.wgsl`).
+    pub(super) solids: Growing,
+    /// Number of touches of each solid.
+    pub(super) counts: Growing,
+    /// For each touch its cell, counted from 1, and the bits of the arm from the solid's centre.
+    pub(super) shares: Table,
+    /// For each touch the record of its cell.
+    pub(super) links: Growing,
+    /// For each touch `B_s`.
+    pub(super) weights: Growing,
+    /// Momentum and density of each covered cell before its collision, by records.
+    pub(super) moments: Table,
+}
+
+/// A solid as the device knows it (`wgsl/solid.wgsl`).
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+struct Row {
+    base: [i32; 3],
+    radius: f32,
+    offset: [f32; 3],
+    first: u32,
+    velocity: [f32; 3],
+    rows: u32,
+    spin: [f32; 3],
+    side: u32,
+}
+
+/// The room that a solid has in the tables.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Room {
+    /// The number of its first touch.
+    pub(super) first: u32,
+    /// How many it may have.
+    pub(super) touches: u32,
+    /// Its first row of cells, or its first given cell.
+    pub(super) rows: u32,
+    /// Cells along each side of the box about it, or its given cells.
+    pub(super) side: u32,
+}
+
+impl Room {
+    /// The room of all solids; and how many touches and rows of cells there are in all.
+    pub(super) fn of_all(solids: &[Solid]) -> (Vec<Room>, [u32; 2]) {
+        let (mut first, mut rows, mut given) = (1, 0, 0);
+        let room = solids.iter().map(|solid| {
+            let room = match &solid.shape {
+                Shape::Cells { fractions } => {
+                    let side = count(fractions.len());
+                    given += side;
+                    Room { first, touches: side, rows: given - side, side }
+                }
+                Shape::Sphere { radius } => {
+                    let side = whole(2.0 * radius) + 2;
+                    rows += side * side;
+                    let touches = most_touches(*radius).min(side.saturating_pow(3));
+                    Room { first, touches, rows: rows - side * side, side }
+                }
+            };
+            first += room.touches;
+            room
+        });
+        let room = room.collect();
+        (room, [first - 1, rows])
+    }
+}
+
+impl Room {
+    /// The room of solids that have just what they need.
+    pub(super) fn one_after_another(counts: &[u32]) -> Vec<Room> {
+        let starts = counts.iter().scan(1, |next, touches| {
+            let first = *next;
+            *next += touches;
+            Some(first)
+        });
+        let room = |(first, &touches)| Room { first, touches, rows: 0, side: 0 };
+        starts.zip(counts).map(room).collect()
+    }
+}
+
+/// Cells that a ball touches, at most: they all lie in what a cube of side 2 about its points fills.
+fn most_touches(radius: f64) -> u32 {
+    // Steiner: 8 + 24 r + 6π r² + 4/3 π r³
+    let pi = std::f64::consts::PI;
+    whole(8.0 + radius * (24.0 + radius * pi * (6.0 + 4.0 / 3.0 * radius)))
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "solids fit the box")]
+fn whole(number: f64) -> u32 {
+    number as u32
+}
+
+impl Touches {
+    pub(super) fn new(gpu: &Gpu, store: Store) -> Result<Self, KernelError> {
+        let buffer = |label| Growing::new(gpu, label);
+        let table = |label| Table::new(gpu, store, label, 4);
+        Ok(Touches {
+            solids: buffer("motion of solids")?,
+            counts: buffer("numbers of touches")?,
+            shares: table("cells and arms of touches")?,
+            links: buffer("records of touches")?,
+            weights: buffer("weights of touches")?,
+            moments: table("moments of covered cells")?,
+        })
+    }
+
+    /// Makes room for `rows` touches, the row of none among them.
+    pub(super) fn reserve(
+        &mut self,
+        gpu: &Gpu,
+        rows: usize,
+        solids: usize,
+    ) -> Result<(), KernelError> {
+        self.shares.reserve(gpu, rows)?;
+        self.moments.reserve(gpu, rows)?;
+        self.links.reserve(gpu, 4 * rows as u64)?;
+        self.weights.reserve(gpu, 4 * rows as u64)?;
+        self.counts.reserve(gpu, 4 * solids as u64)
+    }
+
+    /// Uploads the touches of solids that stay where they are.
+    pub(super) fn fill(&mut self, gpu: &Gpu, tables: &Tables) -> Result<(), KernelError> {
+        self.moments.reserve(gpu, tables.shares.len())?;
+        self.shares.fill(gpu, &tables.shares)?;
+        self.links.fill(gpu, &tables.links)?;
+        self.weights.fill(gpu, &tables.weights)?;
+        self.counts.fill(gpu, &tables.counts)
+    }
+
+    /// Uploads where the solids are and how they move.
+    pub(super) fn place(
+        &mut self,
+        gpu: &Gpu,
+        solids: &[Solid],
+        room: &[Room],
+    ) -> Result<(), KernelError> {
+        let rows: Vec<Row> =
+            solids.iter().zip(room).map(|(solid, room)| row(solid, room)).collect();
+        self.solids.fill(gpu, &rows)
+    }
+}
+
+/// A solid with its room. Places are told against a cell near the solid, so that they keep their digits.
+fn row(solid: &Solid, room: &Room) -> Row {
+    let narrow = |v: Vec3| [single(v.x), single(v.y), single(v.z)];
+    let (radius, low) = match solid.shape {
+        Shape::Sphere { radius } => (radius, solid.centre.add_scalar(-radius)),
+        Shape::Cells { .. } => (0.0, solid.centre),
+    };
+    let base = low.map(cell_at);
+    let offset = base.map(|i| f64::from(i) + 0.5) - solid.centre;
+    Row {
+        base: base.into(),
+        radius: single(radius),
+        offset: narrow(offset),
+        first: room.first,
+        velocity: narrow(solid.velocity),
+        rows: room.rows,
+        spin: narrow(solid.spin),
+        side: room.side,
+    }
+}
+
+/// The cell of a coordinate.
+#[expect(clippy::cast_possible_truncation, reason = "coordinates of solids are far below 2^31")]
+fn cell_at(coordinate: f64) -> i32 {
+    coordinate.floor() as i32
+}

@@ -1,0 +1,109 @@
+//! Solid fractions as the device finds them in single precision, against quadrature and exact volumes.
+//!
+//! **The bound.** The volume is an integral by a rule of six points between places where the integrand is
+//! smooth, of parts of the size of the cell. The rule is good to 1.3e-6 (the worst is a ball of about the
+//! cell's own size), and an epsilon of a place r cells from the centre moves the surface by r epsilon
+//! through an area of at most about √2.
+
+mod common;
+
+use std::process::ExitCode;
+
+use common::cuts::{cut, images};
+use common::random::Random;
+use common::sphere_quadrature::fraction_by_quadrature;
+use common::trials;
+use psmrt::kernel::solid_fractions_on_device;
+use psmrt_reference::lattice::Vec3;
+use std::f64::consts::PI;
+
+fn bound(radius: f64) -> f64 {
+    2e-6 + 2.0 * f64::from(f32::EPSILON) * radius
+}
+
+fn found(balls: &[(Vec3, f64)]) -> Vec<f64> {
+    let balls: Vec<([f64; 3], f64)> =
+        balls.iter().map(|(centre, radius)| ((*centre).into(), *radius)).collect();
+    solid_fractions_on_device(&trials::gpu().unwrap(), &balls).unwrap()
+}
+
+fn device_fractions_are_the_volumes_that_quadrature_finds() {
+    let mut random = Random(21);
+    let balls: Vec<(Vec3, f64)> = (0..2000).map(|_| cut(&mut random)).collect();
+    let mut worst = 0.0_f64;
+    for ((centre, radius), found) in balls.iter().zip(found(&balls)) {
+        let error = (found - fraction_by_quadrature(centre, *radius)).abs() / bound(*radius);
+        assert!(error <= 1.0, "{centre:?}, radius {radius}: {error} of the bound");
+        worst = worst.max(error);
+    }
+    println!("worst: {worst:.2} of the bound");
+}
+
+fn device_fractions_add_up_to_the_volume_of_the_ball() {
+    let mut random = Random(22);
+    for radius in [0.1, 0.4, 0.87, 1.3, 2.0, 3.7, 6.0] {
+        let centre = random.vector(0.5);
+        let cells = (0..16 * 16 * 16)
+            .map(|i| Vec3::from([i % 16, i / 16 % 16, i / 256].map(|i| f64::from(i) - 8.0)));
+        let balls: Vec<(Vec3, f64)> = cells.map(|cell| (centre - cell, radius)).collect();
+        let sum: f64 = found(&balls).iter().sum();
+        let volume = 4.0 / 3.0 * PI * radius.powi(3);
+        // About 4π (r + 1)² cells are cut; all might be off the same way.
+        let tolerance = 4.0 * PI * (radius + 1.0).powi(2) * bound(radius);
+        assert!((sum - volume).abs() <= tolerance, "{radius}: {sum} is not {volume}");
+    }
+}
+
+fn device_fractions_of_balls_that_miss_fill_or_halve_the_cell_are_exact() {
+    let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
+    let balls = [
+        (at(2.0, 0.0, 0.0), 1.5),
+        (at(0.0, 0.0, 0.0), 0.9),
+        (at(0.5, 0.5, 0.5), 0.2),
+        (at(0.5, 0.5, 0.0), 0.2),
+        (at(0.0, 0.0, -0.5), 0.2),
+        (at(0.0, 0.0, 0.0), 0.3),
+    ];
+    let expected = [0.0, 1.0, 0.125, 0.25, 0.5, 1.0];
+    for (number, (found, share)) in found(&balls).iter().zip(expected).enumerate() {
+        let volume = if number < 2 { 1.0 } else { 4.0 / 3.0 * PI * balls[number].1.powi(3) };
+        let error = (found - share * volume).abs();
+        // The first two are told by their distance. The others are a few terms of the volume's size, by a
+        // rule whose error is that of the bound for a cell, scaled down with the ball.
+        let tolerance = if number < 2 { 0.0 } else { 2e-6 * volume };
+        assert!(error <= tolerance, "ball {number}: off by {error:e}");
+    }
+}
+
+fn device_fractions_hardly_know_the_axes_of_the_box() {
+    let mut random = Random(23);
+    for _ in 0..20 {
+        let (centre, radius) = cut(&mut random);
+        let balls: Vec<(Vec3, f64)> =
+            images(&centre).into_iter().map(|centre| (centre, radius)).collect();
+        let found = found(&balls);
+        let spread = found.iter().map(|x| (x - found[0]).abs()).fold(0.0, f64::max);
+        assert!(spread <= 2.0 * bound(radius), "{centre:?}, radius {radius}: {spread:e}");
+    }
+}
+
+fn main() -> ExitCode {
+    trials::run(&[
+        (
+            "device_fractions_are_the_volumes_that_quadrature_finds",
+            device_fractions_are_the_volumes_that_quadrature_finds,
+        ),
+        (
+            "device_fractions_add_up_to_the_volume_of_the_ball",
+            device_fractions_add_up_to_the_volume_of_the_ball,
+        ),
+        (
+            "device_fractions_of_balls_that_miss_fill_or_halve_the_cell_are_exact",
+            device_fractions_of_balls_that_miss_fill_or_halve_the_cell_are_exact,
+        ),
+        (
+            "device_fractions_hardly_know_the_axes_of_the_box",
+            device_fractions_hardly_know_the_axes_of_the_box,
+        ),
+    ])
+}
