@@ -75,7 +75,8 @@ fn touch(
         return;
     }
     let solid = solids[number];
-    for (var i = lane + 64u * group.y; i < counts[number]; i += 64u * PARTS) {
+    let count = counts[number];
+    for (var i = lane + 64u * group.y; i < count; i += 64u * PARTS) {
         var cell = vec2<u32>(0u, 0u);
         var arm = vec3<f32>(0.0);
         var fraction = 0.0;

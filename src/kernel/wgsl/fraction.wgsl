@@ -5,17 +5,6 @@
 // large numbers are subtracted, so that the error stays near 1e-6 however large the ball. The integral is
 // split where the disc passes a corner of the rectangle.
 
-// Nodes s of Gauss's rule of six points on 0..1, and its weights times 2 s: the integral of a function of
-// t = 1 - s² over t from 0 to 1. Below a split the area may end like (1 - t)^(3/2), which is smooth in s.
-const NODES = array<f32, 6>(
-    0.033765243, 0.169395307, 0.380690407,
-    0.619309593, 0.830604693, 0.966234757,
-);
-const WEIGHTS = array<f32, 6>(
-    0.005784813, 0.061111317, 0.178130346,
-    0.289783588, 0.299650256, 0.165539679,
-);
-
 // The s > 0 with s (2 p + s) = e: how far it is from p to where the square has grown by e.
 fn reach(p: f32, e: f32) -> f32 {
     if (e <= 0.0) {
@@ -55,34 +44,34 @@ fn ball_in_box(corner: vec3<f32>, size: vec3<f32>, r: f32) -> f32 {
     let beside = size.y * (2.0 * corner.y + size.y);
     let above = size.z * (2.0 * corner.z + size.z);
     // Along x, where the disc shrinks below the far corner, the two beside it, the near one.
-    let splits = array<f32, 4>(
-        min(reach(corner.x, power - beside - above), size.x),
-        min(reach(corner.x, power - max(beside, above)), size.x),
-        min(reach(corner.x, power - min(beside, above)), size.x),
-        min(reach(corner.x, power), size.x),
-    );
-    var volume = splits[0] * size.y * size.z;
-    volume += slab(splits[0], splits[1], power, corner, size);
-    volume += slab(splits[1], splits[2], power, corner, size);
-    volume += slab(splits[2], splits[3], power, corner, size);
+    var splits = min(vec4<f32>(
+        reach(corner.x, power - beside - above),
+        reach(corner.x, power - max(beside, above)),
+        reach(corner.x, power - min(beside, above)),
+        reach(corner.x, power),
+    ), vec4<f32>(size.x));
+    var volume = splits.x * size.y * size.z;
+    for (var slab = 0u; slab < 3u; slab++) {
+        let length = splits.y - splits.x;
+        if (length > 0.0) {
+            // Gauss's rule of six points for s in x = end - length s²: below a split the area may end like
+            // (end - x)^(3/2), which is smooth in s. Its weights times 2 s.
+            let end = splits.y;
+            volume += length * (0.005784813 * area(end - length * 0.0011400916, power, corner, size)
+                + 0.061111317 * area(end - length * 0.0286947700, power, corner, size)
+                + 0.178130346 * area(end - length * 0.1449251860, power, corner, size)
+                + 0.289783588 * area(end - length * 0.3835443720, power, corner, size)
+                + 0.299650256 * area(end - length * 0.6899041564, power, corner, size)
+                + 0.165539679 * area(end - length * 0.9336096058, power, corner, size));
+        }
+        splits = splits.yzww;
+    }
     return volume;
 }
 
-// The same between two places along x.
-fn slab(begin: f32, end: f32, power: f32, corner: vec3<f32>, size: vec3<f32>) -> f32 {
-    let length = end - begin;
-    if (length <= 0.0) {
-        return 0.0;
-    }
-    var nodes = NODES;
-    var weights = WEIGHTS;
-    var mean = 0.0;
-    for (var i = 0u; i < 6u; i++) {
-        let x = end - length * nodes[i] * nodes[i];
-        let left = power - x * (2.0 * corner.x + x);
-        mean += weights[i] * disc_in_rectangle(left, corner.y, corner.z, size.yz);
-    }
-    return length * mean;
+// Area of the section of both at `x` from the corner.
+fn area(x: f32, power: f32, corner: vec3<f32>, size: vec3<f32>) -> f32 {
+    return disc_in_rectangle(power - x * (2.0 * corner.x + x), corner.y, corner.z, size.yz);
 }
 
 // Solid fraction, 0 to 1, of the cell from `low` to low + 1 in a ball of radius r about the origin.
@@ -111,14 +100,18 @@ fn solid_fraction(low: vec3<f32>, r: f32) -> f32 {
     // Planes through the centre cut the cell into up to eight parts, each mirrored to the positive side.
     let positive_size = select(max(h, vec3<f32>(0.0)), vec3<f32>(1.0), l >= vec3<f32>(0.0));
     let negative_size = select(max(-l, vec3<f32>(0.0)), vec3<f32>(1.0), h <= vec3<f32>(0.0));
+    // Most cells have one. Counted so, neighbours on different sides of the ball do theirs at the same time.
+    let has_positive = select(vec3<u32>(0u), vec3<u32>(1u), positive_size > vec3<f32>(0.0));
+    let has_negative = select(vec3<u32>(0u), vec3<u32>(1u), negative_size > vec3<f32>(0.0));
+    let kinds = has_positive + has_negative;
+    let parts = kinds.x * kinds.y * kinds.z;
     var volume = 0.0;
-    for (var part = 0u; part < 8u; part++) {
-        let mirrored = (vec3<u32>(part) & vec3<u32>(1u, 2u, 4u)) != vec3<u32>(0u);
+    for (var part = 0u; part < parts; part++) {
+        let which = vec3<u32>(part, part / kinds.x, part / (kinds.x * kinds.y)) % kinds;
+        let mirrored = which >= has_positive;
         let size = select(positive_size, negative_size, mirrored);
-        if (all(size > vec3<f32>(0.0))) {
-            let corner = max(select(l, -h, mirrored), vec3<f32>(0.0));
-            volume += ball_in_box(corner, size, r);
-        }
+        let corner = max(select(l, -h, mirrored), vec3<f32>(0.0));
+        volume += ball_in_box(corner, size, r);
     }
     return clamp(volume, 0.0, 1.0);
 }

@@ -36,8 +36,10 @@ fn uncover(
     if (number >= SOLIDS) {
         return;
     }
-    for (var i = lane + 64u * group.y; i < counts[number]; i += 64u * PARTS) {
-        let place = shares_at(solids[number].first + i).x;
+    let first = solids[number].first;
+    let count = counts[number];
+    for (var i = lane + 64u * group.y; i < count; i += 64u * PARTS) {
+        let place = shares_at(first + i).x;
         if (place > 0u) {
             slots[place - 1u] = 0u;
         }
@@ -53,15 +55,28 @@ fn resolve(
     if (number >= SOLIDS) {
         return;
     }
-    for (var i = lane + 64u * group.y; i < counts[number]; i += 64u * PARTS) {
-        let name = solids[number].first + i;
+    let velocity = solids[number].velocity;
+    let spin = solids[number].spin;
+    let first = solids[number].first;
+    let count = counts[number];
+    for (var i = lane + 64u * group.y; i < count; i += 64u * PARTS) {
+        let name = first + i;
         let share = shares_at(name);
         if (share.x == 0u) {
             weights[name] = 0.0;
             links[name] = 0u;
         } else if (slots[share.x - 1u] == name) {
             if (links[name] == 0u) {
-                alone(name, share);
+                // A cell of one solid.
+                let b = weight_of(bitcast<f32>(touches[name].x));
+                let u = velocity + cross(spin, bitcast<vec3<f32>>(share.yzw));
+                weights[name] = b;
+                links[name] = name;
+                keep_records(name, bitcast<vec4<u32>>(vec4<f32>(b, b * u)));
+                // Only where the step of all cells has no solids in it is the list used.
+//#if LISTED
+                single[atomicAdd(&found[0], 1u)] = share.x - 1u;
+//#end
             } else {
                 meeting(name, share.x - 1u);
             }
@@ -71,20 +86,9 @@ fn resolve(
 
 // u_s = U + ω × r of a touch.
 fn velocity_of(name: u32) -> vec3<f32> {
-    let solid = solids[touches[name].y];
-    return solid.velocity + cross(solid.spin, bitcast<vec3<f32>>(shares_at(name).yzw));
-}
-
-// A cell of one solid.
-fn alone(name: u32, share: vec4<u32>) {
-    let b = weight_of(bitcast<f32>(touches[name].x));
-    weights[name] = b;
-    links[name] = name;
-    keep_records(name, bitcast<vec4<u32>>(vec4<f32>(b, b * velocity_of(name))));
-    // Only where the step of all cells has no solids in it is the list used.
-//#if LISTED
-    single[atomicAdd(&found[0], 1u)] = share.x - 1u;
-//#end
+    let solid = touches[name].y;
+    let arm = bitcast<vec3<f32>>(shares_at(name).yzw);
+    return solids[solid].velocity + cross(solids[solid].spin, arm);
 }
 
 // A cell of several, of which touch `head` came last. They are added up in the order of their numbers.
