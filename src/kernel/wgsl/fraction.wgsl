@@ -51,19 +51,27 @@ fn ball_in_box(corner: vec3<f32>, size: vec3<f32>, r: f32) -> f32 {
         reach(corner.x, power),
     ), vec4<f32>(size.x));
     var volume = splits.x * size.y * size.z;
-    for (var slab = 0u; slab < 3u; slab++) {
+    // Empty slabs between the splits to the end, so that neighbours have their other ones at the same time.
+    if (splits.x == splits.y) {
+        splits = splits.yzww;
+    }
+    if (splits.x == splits.y) {
+        splits = splits.yzww;
+    }
+    if (splits.y == splits.z) {
+        splits = splits.xyww;
+    }
+    while (splits.x < splits.w) {
         let length = splits.y - splits.x;
-        if (length > 0.0) {
-            // Gauss's rule of six points for s in x = end - length s²: below a split the area may end like
-            // (end - x)^(3/2), which is smooth in s. Its weights times 2 s.
-            let end = splits.y;
-            volume += length * (0.005784813 * area(end - length * 0.0011400916, power, corner, size)
-                + 0.061111317 * area(end - length * 0.0286947700, power, corner, size)
-                + 0.178130346 * area(end - length * 0.1449251860, power, corner, size)
-                + 0.289783588 * area(end - length * 0.3835443720, power, corner, size)
-                + 0.299650256 * area(end - length * 0.6899041564, power, corner, size)
-                + 0.165539679 * area(end - length * 0.9336096058, power, corner, size));
-        }
+        // Gauss's rule of six points for s in x = end - length s²: below a split the area may end like
+        // (end - x)^(3/2), which is smooth in s. Its weights times 2 s.
+        let end = splits.y;
+        volume += length * (0.005784813 * area(end - length * 0.0011400916, power, corner, size)
+            + 0.061111317 * area(end - length * 0.0286947700, power, corner, size)
+            + 0.178130346 * area(end - length * 0.1449251860, power, corner, size)
+            + 0.289783588 * area(end - length * 0.3835443720, power, corner, size)
+            + 0.299650256 * area(end - length * 0.6899041564, power, corner, size)
+            + 0.165539679 * area(end - length * 0.9336096058, power, corner, size));
         splits = splits.yzww;
     }
     return volume;
