@@ -222,3 +222,22 @@ fn uniform_fluid_under_a_body_force_has_its_first_velocity_and_gains_g_over_rho_
         }
     }
 }
+
+#[test]
+fn torque_on_given_cells_is_taken_about_the_solids_centre() {
+    let domain = Domain::new([4, 5, 6], Faces::PERIODIC).unwrap();
+    let (place, centre) = ([3, 1, 4], Vec3::new(1.2, 2.9, 0.7));
+    let fractions = vec![(domain.index(place), 0.7)];
+    let solid = Solid { centre, ..Solid::fixed_cells(fractions) };
+    let phase = SolidPhase { solids: vec![solid], ..SolidPhase::default() };
+    let setup = Setup::fluid(domain, mrt(0.7)).with_solids(phase);
+    let velocity = Vec3::new(0.01, -0.02, 0.03);
+    let mut solver = Solver::starting_from(setup, |_| (1.0, velocity)).unwrap();
+    solver.run(1).unwrap();
+    let load = solver.loads()[0];
+    // The one cell's force acts at its centre.
+    let arm = Vec3::new(3.5, 1.5, 4.5) - centre;
+    assert!(load.force.norm() > 1e-3);
+    // Sums of a few products of numbers below 1.
+    assert_abs_diff_eq!(load.torque, arm.cross(&load.force), epsilon = 1e-15);
+}

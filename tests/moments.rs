@@ -226,7 +226,13 @@ fn rates_outside_zero_to_two_are_refused_by_name() {
     }
     assert_eq!(rates.with("nu", 1.0), Err(RateError::Stress));
     assert_eq!(rates.with("s9", 1.0), Err(RateError::Unknown { name: "s9".into() }));
-    assert_eq!(rates.with("q", 1.5).unwrap().q, 1.5);
+    // Each name sets its own rate and no other.
+    let changed = |name| rates.with(name, 1.5).unwrap();
+    assert_eq!(changed("e"), Rates { e: 1.5, ..rates });
+    assert_eq!(changed("eps"), Rates { eps: 1.5, ..rates });
+    assert_eq!(changed("q"), Rates { q: 1.5, ..rates });
+    assert_eq!(changed("pi"), Rates { pi: 1.5, ..rates });
+    assert_eq!(changed("m"), Rates { m: 1.5, ..rates });
     for tau in [0.5, 0.3, f64::NAN, f64::INFINITY] {
         assert!(Rates::srt(tau).is_err() && Rates::dhumieres(tau).is_err());
     }

@@ -117,7 +117,8 @@ pub fn given_fractions(random: &mut Random, moving: bool) -> Vec<Solid> {
             }
             let velocity = if moving { random.vector(0.05) } else { Vec3::zeros() };
             let spin = if moving { random.vector(0.01) } else { Vec3::zeros() };
-            Solid { velocity, spin, ..Solid::fixed_cells(fractions) }
+            let centre = random.vector(6.0);
+            Solid { velocity, spin, centre, ..Solid::fixed_cells(fractions) }
         })
         .collect()
 }
