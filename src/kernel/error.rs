@@ -45,8 +45,9 @@ pub enum KernelError {
     },
     /// The scene needs more bindings than the adapter has.
     #[error(
-        "the populations need {needed} storage bindings, the adapter {adapter} offers {available}: \
-         use a larger dx, a smaller box, or another adapter (psmrt info lists them)"
+        "the scene needs {needed} storage bindings, the adapter {adapter} offers {available}: use a \
+         larger dx, a smaller box, grains that stay where they are, another adapter (psmrt info lists \
+         them), or --engine reference"
     )]
     TooManyBindings {
         /// Bindings needed.

@@ -23,6 +23,9 @@ use super::touches::{Room, Touches};
 /// Touches of one solid that one workgroup works out, about.
 const SHARE: u32 = 512;
 
+/// Storage buffers that `resolve.wgsl` works with.
+const BINDINGS: u32 = 12;
+
 /// Workgroups to one solid, at most.
 const MOST_PARTS: u32 = 64;
 
@@ -71,6 +74,11 @@ impl Movable {
         touches: &mut Touches,
         in_every_cell: bool,
     ) -> Result<Self, KernelError> {
+        let (needed, available) = (BINDINGS, gpu.facts().max_bindings);
+        if available < needed {
+            let adapter = gpu.facts().name.clone();
+            return Err(KernelError::TooManyBindings { needed, available, adapter });
+        }
         let (room, [all, rows]) = Room::of_all(&phase.solids);
         let most = room.iter().map(|room| room.touches).max().unwrap_or(0);
         let parts = most.div_ceil(SHARE).clamp(1, MOST_PARTS);
