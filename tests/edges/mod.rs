@@ -327,6 +327,8 @@ pub fn near_frontiers() -> Vec<(Near, u64)> {
     both("bed_force", 4096, Model::DHumieres, nt, "", 0.501, [0.03, 0.07]);
     both("bed_force", 4096, Model::Srt, nt, "", 0.6, [0.03, 0.07]);
     both("movers", 1728, Model::DHumieres, nt, "lagged", 0.6, [0.8, 0.2]);
+    // So light that it is thrown beyond all bounds before the guard looks.
+    both("movers", 1728, Model::DHumieres, nt, "lagged", 0.51, [1.0, 0.05]);
     all
 }
 
