@@ -244,7 +244,8 @@ fn fluid(rows: &Table, flow: &str, title: &str) -> Result<Figure, CaseError> {
         figure = with_points(with_points(figure, lives), right);
     }
     Ok(figure.note(
-        "double precision; 0.5 was the largest tried; where a dashed line ends no tried velocity was right",
+        "double precision; 0.5 was the largest tried; a dashed line hidden by its solid one: all that survives is \
+         right; none at all: nothing tried was",
     ))
 }
 
