@@ -2,9 +2,15 @@
 //!
 //! Writes `golden/cost/cost.csv` anew. Each model is timed in turn with the fluid that it is added to, many
 //! times over, by the processor time of all threads of this process (Linux), so that what else the machine
-//! does matters little; the ratio is that of the two shortest times. Bytes are what a process of its own
-//! grows by when it sets a larger box up and makes two steps. One thread each: RAYON_NUM_THREADS=1 and, for
-//! Mesa's software adapter, LP_NUM_THREADS=1.
+//! does matters little; the ratio is that of the two shortest times. One thread each: RAYON_NUM_THREADS=1
+//! and, for Mesa's software adapter, LP_NUM_THREADS=1.
+//!
+//! Bytes are by how much more a process of its own grows for a box of 128³ cells than for one of 64³, set up and
+//! run for two steps, each twice, the smaller. The growth for one box says too much, for the bare fluid on the
+//! kernel 167 to 196 bytes per cell of 96³ where two copies of 19 populations of 4 bytes take 152. What is beyond
+//! does not belong to cells: 11 MB of shaders whatever the box (15 bytes for each of 96³), 14 MB more where Mesa
+//! has to compile them first, and up to 30 bytes per cell that the host has freed after the upload and the C
+//! library keeps for later. So sizes are subtracted, and the library is told to give back at once.
 
 use std::error::Error;
 use std::fmt::Write;
@@ -29,10 +35,13 @@ use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 
 const FILE: &str = "golden/cost/cost.csv";
-/// Edge of the box that is timed, and of the one whose memory is measured: so large that the code of the
-/// shaders and what a compiler of theirs keeps is little beside it.
+/// Edge of the box that is timed, and of those whose memory is measured.
 const SIDE: usize = 32;
-const LARGE: usize = 96;
+const SIDES: [usize; 2] = [64, 128];
+
+/// Settings of glibc's allocator (mallopt(3)): what is freed goes back to the system, whatever its size.
+const GIVE_BACK: [(&str, &str); 2] =
+    [("MALLOC_MMAP_THRESHOLD_", "65536"), ("MALLOC_TRIM_THRESHOLD_", "65536")];
 const TAU: f64 = 0.8;
 
 type Failure = Box<dyn Error>;
@@ -54,9 +63,9 @@ const ENGINES: [EngineName; 2] = [EngineName::Reference, EngineName::Wgpu];
 
 fn main() -> Result<(), Failure> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let [word, engine, model] = &arguments[..] {
+    if let [word, engine, model, side] = &arguments[..] {
         assert_eq!(word, "bytes", "usage: model_cost [repeats]");
-        return bytes_here(engine, model);
+        return bytes_here(engine, model, side.parse()?);
     }
     let repeats: u32 = arguments.first().map_or(Ok(10), |count| count.parse())?;
     let mut text = format!(
@@ -65,9 +74,12 @@ fn main() -> Result<(), Failure> {
          # {repeats} times, the shortest of each by the processor time of the process; one thread\n\
          # (RAYON_NUM_THREADS=1, LP_NUM_THREADS=1) on two shared cores; the load at the start and the end stands in\n\
          # the last line. The guard is off but in its own row and in that of the record. against: the row that a\n\
-         # model is added to. bytes_per_cell: growth of a process with {LARGE}^3 cells over their number; on a\n\
-         # software adapter that is the device's memory too, and scatters by some 30 with what its host keeps.\n\
-         engine,model,against,time_ratio,ns_per_cell_update,bytes_per_cell\n"
+         # model is added to. bytes_per_cell: growth of a process with {}^3 cells less that of one with {}^3 (the\n\
+         # code of shaders is the same in both), over the difference of their cells; the allocator gives back at once\n\
+         # what is freed. On a software adapter that is the device's memory too. Two copies of 19 populations take 304 bytes\n\
+         # in double precision and 152 in single; the lists of what solids cover, on the host, are the rest of a bed.\n\
+         engine,model,against,time_ratio,ns_per_cell_update,bytes_per_cell\n",
+        SIDES[1], SIDES[0]
     );
     let load = || std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     let first_load = load();
@@ -134,28 +146,35 @@ fn processor_seconds() -> Result<f64, Failure> {
     Ok(nanoseconds / 1e9)
 }
 
-/// Bytes per cell of a model, found by a process of its own.
+/// Bytes per cell of a model, found by processes of their own.
 fn bytes(engine: EngineName, model: &Model) -> Result<String, Failure> {
-    let this = std::env::current_exe()?;
-    let output = Command::new(this).args(["bytes", engine.word(), model.name]).output()?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
-    }
-    Ok(String::from_utf8(output.stdout)?.trim().to_owned())
+    let grown = |side: usize| -> Result<f64, Failure> {
+        let mut command = Command::new(std::env::current_exe()?);
+        command.args(["bytes", engine.word(), model.name, &side.to_string()]).envs(GIVE_BACK);
+        let output = command.output()?;
+        if !output.status.success() {
+            return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
+        }
+        Ok(String::from_utf8(output.stdout)?.trim().parse()?)
+    };
+    let growth = |side: usize| -> Result<f64, Failure> { Ok(grown(side)?.min(grown(side)?)) };
+    let [small, large] = SIDES;
+    let cells = (large.pow(3) - small.pow(3)) as f64;
+    Ok(format!("{:.0}", (growth(large)? - growth(small)?) / cells))
 }
 
-/// Prints by how many bytes per cell this process grows with a model.
-fn bytes_here(engine: &str, model: &str) -> Result<(), Failure> {
+/// Prints by how many bytes this process grows with a model in a box of `side` cells.
+fn bytes_here(engine: &str, model: &str, side: usize) -> Result<(), Failure> {
     let engine =
         ENGINES.into_iter().find(|known| known.word() == engine).ok_or("no such engine")?;
-    let models = models(LARGE)?;
+    let models = models(side)?;
     let model = models.iter().find(|known| known.name == model).ok_or("no such model")?;
     let gpu = Gpu::open(None)?;
     let before = memory()?;
     let mut made = start(engine, &gpu, model)?;
     made.step(2)?;
     made.box_means();
-    println!("{:.0}", (memory()? - before) / (LARGE * LARGE * LARGE) as f64);
+    println!("{:.0}", memory()? - before);
     Ok(())
 }
 

@@ -2,7 +2,8 @@
 //! will cost, and what looks risky.
 
 mod grains;
-mod stability;
+pub(crate) mod spheres;
+pub(crate) mod stability;
 
 use std::time::{Duration, Instant};
 

@@ -50,10 +50,15 @@ fn units_from_nanometres_to_metres_give_the_same_lattice_numbers() {
 
 #[test]
 fn runs_inside_the_frontiers_survive_and_those_outside_are_stopped() {
-    let mut budget = Budget::oracle(16_000_000);
+    let mut budget = Budget::oracle(17_500_000);
     for near in edges::near_frontiers() {
         edges::assert_near(&near, EngineName::Reference, &LAB, &mut budget);
     }
+}
+
+#[test]
+fn eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused() {
+    edges::in_one_cell_and_too_hard(EngineName::Reference, &LAB, &mut Budget::oracle(2_000_000));
 }
 
 #[test]

@@ -46,10 +46,14 @@ fn units_from_nanometres_to_metres_give_the_same_lattice_numbers() {
 }
 
 fn runs_inside_the_frontiers_survive_and_those_outside_are_stopped() {
-    let mut budget = Budget::kernel(16_000_000);
+    let mut budget = Budget::kernel(17_500_000);
     for near in edges::near_frontiers() {
         edges::assert_near(&near, EngineName::Wgpu, &lab(), &mut budget);
     }
+}
+
+fn eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused() {
+    edges::in_one_cell_and_too_hard(EngineName::Wgpu, &lab(), &mut Budget::kernel(2_000_000));
 }
 
 fn scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite() {
@@ -80,6 +84,10 @@ fn main() -> ExitCode {
         (
             "runs_inside_the_frontiers_survive_and_those_outside_are_stopped",
             runs_inside_the_frontiers_survive_and_those_outside_are_stopped,
+        ),
+        (
+            "eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused",
+            eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused,
         ),
         (
             "scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite",

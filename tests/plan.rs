@@ -5,6 +5,7 @@ mod common;
 
 use cli::{Folder, psmrt, stderr, stdout};
 use common::Budget;
+use psmrt::estimate::warnings;
 use psmrt::plan::facts::{Facts, Limit};
 use psmrt::plan::options::{Speed, Way, cheapest, ways};
 use psmrt::plan::write::text;
@@ -69,6 +70,37 @@ fn smaller_errors_are_never_cheaper_and_every_plan_keeps_its_word() {
             assert!((0.6..=2.0).contains(&best.tau), "{best:?}");
         }
         assert!(planned >= 4, "{scene}: only {planned}");
+    }
+}
+
+#[test]
+fn no_plan_lies_beyond_what_the_maps_of_stability_found() {
+    // A bed of 0.6 and a channel, driven harder and harder: as `check` warns, so a plan must not be.
+    let bed = ["grains[0].lattice=\"bcc\"", "grains[0].solid_fraction=0.6"].map(str::to_owned);
+    for (scene, changes) in [("sphere_arrays", &bed[..]), ("poiseuille", &[])] {
+        let scene = format!("golden/{scene}/scene.toml");
+        let mut counts = vec![];
+        for times in [1.0, 30.0, 1000.0, 30_000.0] {
+            let gentle = Scene::load(Path::new(&scene), changes).unwrap();
+            let si_force = gentle.setup.body_force.unwrap().x * gentle.units.si_acceleration();
+            let force = format!("body_force.acceleration=[{:e}, 0.0, 0.0]", times * si_force);
+            let hard = Scene::load(Path::new(&scene), &[changes, &[force]].concat()).unwrap();
+            let facts = Facts::of(&hard).unwrap().unwrap();
+            let ways = ways(&facts, &models(), &speeds()[..1]);
+            // Some of all that are coarse, where the flow is fastest: it has 1/dx cells per step.
+            for way in ways.iter().filter(|way| way.resolution < 16.0).step_by(7) {
+                let planned = text(&hard, Path::new(""), way, "").unwrap();
+                let planned =
+                    Scene::from_bytes("planned", planned.into_bytes(), Path::new(""), &[]).unwrap();
+                let all = warnings(&planned);
+                let beyond = all.iter().find(|one| one.reason.contains("golden/stability"));
+                assert_eq!(beyond, None, "{scene}, {times} times the force: {way:?}");
+            }
+            counts.push(ways.len());
+        }
+        println!("{scene}: {counts:?}");
+        // Fewer and fewer are left: the limits bind.
+        assert!(counts.is_sorted_by(|a, b| a >= b) && counts[3] < counts[0], "{scene}: {counts:?}");
     }
 }
 

@@ -7,16 +7,20 @@ use cli::Folder;
 use common::{Budget, golden_rows};
 use proptest::prelude::*;
 use psmrt::cases::{CASES, Golden, Table};
-use psmrt::tradeoff::evidence::{GrainPoint, committed_sweep, grain_points, wall_points};
+use psmrt::tradeoff::effects;
+use psmrt::tradeoff::evidence::{
+    GrainPoint, SolidKnob, committed_sweep, grain_points, wall_points,
+};
 use psmrt::tradeoff::front::front;
 use psmrt::tradeoff::knobs::{CollisionKnob, Flow, Knobs, Storage};
 use psmrt::tradeoff::measure::Runner;
 use psmrt::tradeoff::model::{GrainModel, Models};
+use psmrt::tradeoff::model_eps::EpsModel;
 use psmrt::tradeoff::record::{Record, Row};
 use psmrt::tradeoff::storage::half;
 use psmrt::tradeoff::sweep::runs;
 use psmrt::tradeoff::tables;
-use psmrt::tradeoff::trial::{committed_results, trials};
+use psmrt::tradeoff::trial::{committed_results, score, trials};
 use psmrt_report::render_svg;
 use std::fs;
 use std::path::Path;
@@ -32,6 +36,7 @@ fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
                 let leak = 4.0 * (tau - 0.5) / (cells * cells);
                 let error = f64::powf(drag, 0.8) * (leak + 3.0 / cells.powi(3));
                 points.push(GrainPoint {
+                    solid: SolidKnob::Usual,
                     geometry: geometry.to_owned(),
                     source: "synthetic",
                     collision: CollisionKnob::Dhumieres,
@@ -46,9 +51,13 @@ fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
     points
 }
 
+fn fitted(points: &[GrainPoint]) -> Option<GrainModel> {
+    GrainModel::fit(CollisionKnob::Dhumieres, SolidKnob::Usual, points)
+}
+
 #[test]
 fn fit_recovers_the_coefficients_that_made_the_data() {
-    let exact = GrainModel::fit(CollisionKnob::Dhumieres, &synthetic(|| 0.0)).unwrap();
+    let exact = fitted(&synthetic(|| 0.0)).unwrap();
     let p = &exact.fit.parameters;
     for (found, wanted) in [(p[0].exp(), 4.0), (p[1].exp(), 3.0), (p[2], 0.8), (p[3], 3.0)] {
         // Derivatives by differences of 1e-7 leave some 1e-7.
@@ -63,7 +72,7 @@ fn fit_recovers_the_coefficients_that_made_the_data() {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         0.1 * 3.0_f64.sqrt() * (2.0 * f64::from(state >> 8) / f64::from(1_u32 << 24) - 1.0)
     };
-    let noisy = GrainModel::fit(CollisionKnob::Dhumieres, &synthetic(noise)).unwrap();
+    let noisy = fitted(&synthetic(noise)).unwrap();
     let (p, e) = (&noisy.fit.parameters, &noisy.fit.errors);
     for (i, wanted) in [4.0_f64.ln(), 3.0_f64.ln(), 0.8, 3.0].into_iter().enumerate() {
         // Four numbers within three standard errors: missed by chance in one of a hundred such data sets,
@@ -72,6 +81,27 @@ fn fit_recovers_the_coefficients_that_made_the_data() {
     }
     // 125 points give a standard deviation to 6 %.
     assert!((noisy.fit.scale / 0.1 - 1.0).abs() < 0.2, "{}", noisy.fit.scale);
+}
+
+#[test]
+fn fit_with_b_epsilon_recovers_the_coefficients_of_both_its_errors() {
+    let mut points = synthetic(|| 0.0);
+    for point in &mut points {
+        let (d, tau, drag) = (point.cells, point.tau, point.drag);
+        let leak = 4.0 * drag.powf(0.8) * (tau - 0.5) / (d * d);
+        let shift = 0.4 * drag.powf(0.3) * (tau - 0.5).powf(-0.6) / d;
+        point.error = (1.0 + leak) * (-shift).exp() - 1.0;
+        point.solid = SolidKnob::SolidFraction;
+    }
+    // Of either sign: that is why it has a form of its own.
+    assert!(points.iter().any(|p| p.error < -0.2) && points.iter().any(|p| p.error > 0.2));
+    let model = EpsModel::fit(&points).unwrap();
+    let p = &model.fit.parameters;
+    let found = [p[0].exp(), p[1], p[2].exp(), p[3], p[4]];
+    for (found, wanted) in found.into_iter().zip([4.0, 0.8, 0.4, 0.3, 0.6]) {
+        // Derivatives by differences of 1e-7 leave some 1e-7.
+        assert!((found - wanted).abs() < 1e-5 * wanted, "{found} instead of {wanted}");
+    }
 }
 
 #[test]
@@ -231,6 +261,7 @@ fn what_was_kept_back_is_in_no_fit() {
         let Some(cells) = row.knobs.cells_per_diameter() else { continue };
         let same = points.iter().any(|point| {
             point.collision == row.knobs.collision
+                && SolidKnob::of(&row.knobs) == Some(point.solid)
                 && point.tau == row.knobs.tau
                 && (point.cells - cells).abs() < 1e-3
                 && point.drag == row.drag
@@ -243,13 +274,14 @@ fn what_was_kept_back_is_in_no_fit() {
 fn committed_tables_are_what_the_committed_rows_make() {
     let rows = committed_sweep().unwrap();
     let models = Models::fit(&grain_points(&rows).unwrap(), &wall_points(&rows));
-    let trials = trials(&models, &committed_results().unwrap());
+    let trials = trials(&models, &committed_results().unwrap()).unwrap();
     let golden = |name: &str| Table::read(&Path::new(GOLDEN).join("tradeoff").join(name)).unwrap();
     let costs = golden("cost.csv");
     for (name, made) in [
         ("fits.csv", tables::fits(&models)),
         ("held_back_check.csv", tables::check(&trials)),
         ("front.csv", tables::fronts(&rows, &costs)),
+        ("effects.csv", effects::to_table(&effects::effects(&rows))),
     ] {
         assert_eq!(
             golden(name),
@@ -263,16 +295,17 @@ fn committed_tables_are_what_the_committed_rows_make() {
 fn bands_are_narrow_and_hold() {
     let rows = committed_sweep().unwrap();
     let models = Models::fit(&grain_points(&rows).unwrap(), &wall_points(&rows));
-    assert_eq!(models.grains.len(), 3);
+    assert_eq!(models.grains.len(), 4);
     for model in &models.grains {
         // Wider ones would be no help in choosing a grid: from 8 to 12 cells an error falls by 2.25.
         assert!(model.band() < 1.5, "{}: {}", model.collision.words(), model.band());
     }
-    let trials = trials(&models, &committed_results().unwrap());
-    let hits = trials.iter().filter(|trial| trial.hits()).count();
-    println!("{hits} of {}", trials.len());
-    // Bands are made to hold 95 %; 90 % is the aim.
-    assert!(10 * hits >= 9 * trials.len(), "{hits} of {}", trials.len());
+    let trials = trials(&models, &committed_results().unwrap()).unwrap();
+    // Bands are made to hold 95 %; 90 % is the aim. Those that bands were widened after count by themselves.
+    for [hits, of] in score(&trials) {
+        println!("{hits} of {of}");
+        assert!(of >= 12 && 10 * hits >= 9 * of, "{hits} of {of}");
+    }
 }
 
 #[test]
@@ -288,6 +321,7 @@ fn section_of_the_report_draws_every_flow_and_what_was_kept_back() {
         "A sphere in a duct",
         "A grain settles",
         "Seepage",
+        "Eight spheres",
         "Ten Cate",
         "kept back",
     ];

@@ -22,17 +22,19 @@ pub struct Axis {
     pub range: Option<(f64, f64)>,
     /// Where the labelled ticks go; chosen for the range where `None`.
     pub ticks: Option<Vec<f64>>,
+    /// Words in place of numbers, from the value 1 up.
+    pub names: Option<Vec<String>>,
 }
 
 impl Axis {
     /// A linear axis over the range of the data.
     pub fn linear(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Linear, range: None, ticks: None }
+        Self { label: label.into(), scale: Scale::Linear, range: None, ticks: None, names: None }
     }
 
     /// A logarithmic axis over the range of the data.
     pub fn log(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Log, range: None, ticks: None }
+        Self { label: label.into(), scale: Scale::Log, range: None, ticks: None, names: None }
     }
 
     /// Shows exactly `low..=high`. A line that leaves the range is cut at the frame; points
@@ -49,6 +51,16 @@ impl Axis {
     pub fn ticks(mut self, values: &[f64]) -> Self {
         self.ticks = Some(values.to_vec());
         self
+    }
+
+    /// An axis of things instead of numbers: the value 1 is the first of `names`, 2 the second.
+    #[must_use]
+    pub fn of_names(names: &[&str]) -> Self {
+        Self {
+            names: Some(names.iter().map(|&name| name.to_owned()).collect()),
+            ..Self::linear("")
+        }
+        .range(0.5, names.len() as f64 + 0.5)
     }
 }
 

@@ -147,10 +147,7 @@ impl Layout {
         for frame in &mut frames {
             frame.rect.left = left;
             frame.rect.right = left + plot_width;
-            frame.x_ticks = match &figure.x.ticks {
-                Some(values) => Ticks::given(values, &x),
-                None => Ticks::round(&x, plot_width / 75.0),
-            };
+            frame.x_ticks = Ticks::of(&figure.x, &x, plot_width / 75.0);
         }
         Ok(Self { size: (width, height), title, x_label, notes, frames })
     }
@@ -164,10 +161,7 @@ fn frames(figure: &Figure, (x, ys): (Span, &[Span]), above: f64, share: f64) -> 
     let mut left: f64 = 0.0;
     for (i, (panel, &y)) in figure.panels.iter().zip(ys).enumerate() {
         let height = if i == 0 { FIRST_PANEL * share } else { share };
-        let y_ticks = match &panel.y.ticks {
-            Some(values) => Ticks::given(values, &y),
-            None => Ticks::round(&y, height / 50.0),
-        };
+        let y_ticks = Ticks::of(&panel.y, &y, height / 50.0);
         let y_label = text::wrap(&panel.y.label, LABEL, height);
         let widths = y_ticks.major.iter().map(|(_, label)| text::width(label, TICK));
         let ticks = widths.fold(0.0, f64::max) + TICK_MARK + 4.0;

@@ -1,7 +1,7 @@
 //! Where the ticks and grid lines of an axis go.
 
 use crate::decimal::{Decimal, labels};
-use crate::figure::Scale;
+use crate::figure::{Axis, Scale};
 use crate::span::Span;
 
 /// The grid lines of one axis.
@@ -14,6 +14,18 @@ pub(crate) struct Ticks {
 }
 
 impl Ticks {
+    /// The ticks of an axis: those that the caller chose, or some `wanted` round ones.
+    pub(crate) fn of(axis: &Axis, span: &Span, wanted: f64) -> Self {
+        match (&axis.names, &axis.ticks) {
+            (Some(names), _) => {
+                let values = (1..).map(f64::from).zip(names.iter().cloned());
+                Ticks { major: values.collect(), minor: Vec::new() }
+            }
+            (None, Some(values)) => Self::given(values, span),
+            (None, None) => Self::round(span, wanted),
+        }
+    }
+
     /// Ticks at values that the caller chose.
     pub(crate) fn given(values: &[f64], span: &Span) -> Self {
         let mut shown: Vec<f64> = values.iter().copied().filter(|v| span.contains(*v)).collect();

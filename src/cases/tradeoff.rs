@@ -4,12 +4,12 @@ use psmrt_report::{Figure, PowerLaw};
 
 use super::{Bench, Case, CaseError, Claim, Golden, Table};
 use crate::tradeoff::effects::effects;
-use crate::tradeoff::evidence::{grain_points, wall_points};
+use crate::tradeoff::evidence::{SolidKnob, grain_points, wall_points};
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
 use crate::tradeoff::knobs::{CollisionKnob, Flow, Storage};
 use crate::tradeoff::model::Models;
 use crate::tradeoff::record::Row;
-use crate::tradeoff::trial::{Trial, trials};
+use crate::tradeoff::trial::{Trial, score, trials};
 
 /// The trade-off study.
 pub const CASE: Case = Case {
@@ -25,8 +25,12 @@ pub const CASE: Case = Case {
         "The error with grains follows K^m [a (tau - 1/2)/d^2 + b/d^p] over all arrays, beds, ducts and shafts, \
          d being the cells per diameter and K the drag over Stokes' drag: grains of partially saturated cells \
          leak, in proportion to viscosity and drag; what cells that are covered in part add falls faster. \
-         psmrt plan uses these models. They were fitted without the configurations of the last figure, whose \
-         list was committed before.",
+         With the superposition operator the same form holds with larger numbers; with B = eps a second error of \
+         opposite sign is added, which falls only as 1/d (src/tradeoff/model_eps.rs). psmrt plan uses these models. \
+         They were fitted without the configurations of the last figure, whose list was committed before.",
+        "Spheres at random places have no exact answer: their drag is that of our own finest grids, less what the \
+         error's form says of it (golden/tradeoff/random_drag.csv, with how much hangs on that). It is a test of how \
+         errors fall, not of where to.",
         "What the defaults rest on: with d'Humieres' rates the error grows least with tau; weight B = eps looks \
          good at one tau and is far off at others; the superposition operator errs by tens of percent at any \
          tau; two sample points along each axis of a cell change the error by a fifth, five by 2 %; single \
@@ -51,14 +55,14 @@ fn sweep(golden: &Golden) -> Result<Vec<Row>, CaseError> {
 }
 
 fn checked(golden: &Golden, models: &Models) -> Result<Vec<Trial>, CaseError> {
-    Ok(trials(models, &Row::of_table(&golden.table("held_back_results.csv")?)?))
+    trials(models, &Row::of_table(&golden.table("held_back_results.csv")?)?)
 }
 
 fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
     let rows = sweep(golden)?;
     let models = Models::fit(&grain_points(&rows)?, &wall_points(&rows));
     let trials = checked(golden, &models)?;
-    let hits = trials.iter().filter(|trial| trial.hits()).count();
+    let [[first, of_first], [hits, of]] = score(&trials);
     let widest = models.grains.iter().map(|model| model.band()).fold(0.0, f64::max);
     let magic = rows.iter().filter(|row| {
         let knobs = &row.knobs;
@@ -73,19 +77,25 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
         .into_iter()
         .filter(|point| {
             let this = point.collision == CollisionKnob::Dhumieres && point.tau == 1.5;
-            this && point.geometry == "SC 0.2" && point.cells > 8.0
+            let usual = point.solid == SolidKnob::Usual;
+            this && usual && point.geometry == "SC 0.2" && point.cells > 8.0
         })
         .map(|point| (point.cells, point.error))
         .collect();
     Ok(vec![
         Claim {
-            what: format!(
-                "configurations kept back: share of {} that lie within the predicted band",
-                trials.len()
-            ),
-            measured: hits as f64 / trials.len() as f64,
+            what: format!("configurations kept back: share of {of} that lie within the predicted band"),
+            measured: hits as f64 / of as f64,
             allowed: 0.9..=1.0,
             why: "bands are made to hold 95 %; fifty configurations scatter by 3 %, and the aim is 90 %",
+        },
+        Claim {
+            what: format!(
+                "the {of_first} kept back first, after which bands were widened: share within the predicted band"
+            ),
+            measured: first as f64 / of_first as f64,
+            allowed: 0.9..=1.0,
+            why: "shows that the fits still reach them, not that bands hold: 24 were within before",
         },
         Claim {
             what: "widest band of a model with grains (factor either way)".to_owned(),

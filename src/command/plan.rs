@@ -15,7 +15,7 @@ use crate::engine::Engine;
 use crate::estimate::calibrate;
 use crate::kernel::adapters;
 use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::{Speed, Way, as_it_is, cheapest, most_accurate, ways};
+use crate::plan::options::{FASTEST, Speed, Way, as_it_is, cheapest, most_accurate, ways};
 use crate::plan::write::text;
 use crate::scene::{EngineKind, Scene};
 use crate::tradeoff::cost::mrt_over_srt;
@@ -154,9 +154,9 @@ fn unreachable_error(all: &[Way], wanted: f64, facts: &Facts) -> CommandError {
         let [nx, ny, nz] = facts.cells;
         return CommandError::Usage(format!(
             "no grid that fills the box of {nx} x {ny} x {nz} cells lies within the evidence (4 to 23 cells \
-             per diameter, 6 and more between plates, tau 0.6 to 2, {} cells per time step at most): choose \
-             a box whose sides share a larger divisor, or a slower flow",
-            facts.fastest
+             per diameter, 6 and more between plates, tau 0.6 to 2, {FASTEST} cells per time step at most and \
+             less where golden/stability says so): choose a box whose sides share a larger divisor, or a slower \
+             flow"
         ));
     };
     CommandError::Usage(format!(
@@ -195,7 +195,7 @@ fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, C
             )];
             lines.extend(support::of_grains(
                 models,
-                best.collision,
+                (best.collision, facts.solid),
                 best.resolution,
                 best.tau,
                 *drag,

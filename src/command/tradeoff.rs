@@ -25,7 +25,7 @@ use crate::tradeoff::{cost, effects, figures, tables};
 /// What `psmrt tradeoff` is asked for.
 #[derive(Args, Clone, Debug)]
 pub struct TradeoffRequest {
-    /// One flow: poiseuille, sc, bcc, fcc, sphere_drag, settling or seepage [default: all]
+    /// One flow: poiseuille, sc, bcc, fcc, sphere_drag, settling, seepage or random [default: all]
     pub case: Option<String>,
     /// A handful of runs for each flow
     #[arg(long)]
@@ -121,7 +121,7 @@ fn summarise(
     save("effects.csv", "What one knob alone does to the error", &effects)?;
     let results = file("held_back_results.csv");
     if results.exists() {
-        let trials = trials(&models, &Row::of_table(&Table::read(&results)?)?);
+        let trials = trials(&models, &Row::of_table(&Table::read(&results)?)?)?;
         save(
             "held_back_check.csv",
             "What was kept back from the fits, predicted and measured",

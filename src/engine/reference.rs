@@ -6,7 +6,7 @@ use psmrt_reference::coupling::{CoupledSolver, CoupledStop, CouplingError};
 use psmrt_reference::forcing::forced_velocity;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::guard::Evidence;
-use psmrt_reference::lattice::{Vec3, density, momentum};
+use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::{Memory, Solver};
@@ -53,6 +53,13 @@ impl ReferenceEngine {
             }
         };
         Ok(ReferenceEngine { state })
+    }
+
+    /// A fluid with the given populations, one set per cell, and no free grains. Errors if the oracle
+    /// refuses the set-up.
+    pub fn from_populations(setup: &Setup, f: Vec<Populations>) -> Result<Self, CouplingError> {
+        let solver = Solver::from_populations(setup.clone(), f)?;
+        Ok(ReferenceEngine { state: State::Fluid(Box::new(solver)) })
     }
 
     fn fluid(&self) -> &Solver {

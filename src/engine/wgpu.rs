@@ -57,6 +57,10 @@ pub struct KernelEngine {
     profile: Option<Profile>,
 }
 
+/// A grain further off than cells can be numbered is as lost as one that is nowhere: between two looks of the
+/// guard a load that has broken throws a light grain so far.
+const FARTHEST: f64 = 2_147_483_648.0;
+
 impl KernelEngine {
     /// The scene at its start. With `profiled` the device is waited for after each part of a step, so
     /// that each gets its own time. Errors if the device cannot hold the scene.
@@ -94,6 +98,18 @@ impl KernelEngine {
         })
     }
 
+    /// A fluid with the given populations, one set per cell, and no free grains. Errors if the device
+    /// cannot hold it.
+    pub fn from_populations(
+        setup: &Setup,
+        gpu: &Arc<Gpu>,
+        f: &[[f64; Q]],
+    ) -> Result<Self, StartError> {
+        let mut engine = Self::starting_from(setup, None, gpu, |_| (1.0, Vec3::zeros()))?;
+        engine.kernel.set_populations(f)?;
+        Ok(engine)
+    }
+
     /// Moves the solids after a step, free or as prescribed.
     fn move_solids(&mut self) -> Result<(), EngineStop> {
         let solids = match &mut self.grains {
@@ -104,6 +120,13 @@ impl KernelEngine {
                 let solids = grains.solids();
                 if let (Some(profile), Some(since)) = (&mut self.profile, since) {
                     profile.grains.add(since);
+                }
+                let lost = solids.iter().position(|solid| solid.centre.amax() > FARTHEST);
+                if let Some(grain) = lost {
+                    let position = solids[grain].centre.into();
+                    return Err(
+                        CoupledStop::Grains(GrainError::NotFinite { grain, position }).into()
+                    );
                 }
                 solids
             }

@@ -2,8 +2,8 @@
 
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
-use psmrt_reference::solids::Shape;
 
+use super::spheres::solid_fraction;
 use super::{Warning, diameters, si_velocity};
 use crate::scene::Scene;
 use crate::stability::Model;
@@ -13,23 +13,27 @@ use crate::stability::limits::Measured;
 /// fast as the superficial velocity, and the ordered bed says more than the shear layer.
 const DENSE: f64 = 0.3;
 
-/// What looks risky.
-pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+/// The flow of the maps that a scene is held to, in words too, and how fast it is: cells per step, and where
+/// that comes from. `None` if no velocity is known.
+pub(crate) fn mapped(scene: &Scene) -> Option<(Measured, &'static str, f64, String)> {
     let fraction = solid_fraction(scene);
     let phase = scene.setup.solid_phase.as_ref();
-    let (measured, flow, speed) = match phase.filter(|_| fraction >= DENSE) {
+    match phase.filter(|_| fraction >= DENSE) {
         Some(phase) => {
-            let superficial = superficial_velocity(scene, fraction);
-            (Measured::Bed(phase.weighting), "an ordered bed of fixed grains", superficial)
+            let (speed, source) = superficial_velocity(scene, fraction)?;
+            Some((Measured::Bed(phase.weighting), "an ordered bed of fixed grains", speed, source))
         }
         None => {
-            let named = si_velocity(scene).map(|(si_speed, source)| {
-                (si_speed / scene.units.si_velocity(), source.to_owned())
-            });
-            (Measured::Fluid, "a shear layer", named)
+            let (si_speed, source) = si_velocity(scene)?;
+            let speed = si_speed / scene.units.si_velocity();
+            Some((Measured::Fluid, "a shear layer", speed, source.to_owned()))
         }
-    };
-    let Some((speed, source)) = speed else { return Vec::new() };
+    }
+}
+
+/// What looks risky.
+pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    let Some((measured, flow, speed, source)) = mapped(scene) else { return Vec::new() };
     let (collision, tau) = (&scene.setup.collision, scene.setup.collision.tau());
     let Some(limit) = measured.limit(collision) else { return Vec::new() };
     let word = match limit.right.filter(|&right| speed > right && speed <= limit.lives) {
@@ -52,16 +56,6 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
             .to_owned(),
     };
     vec![Warning { reason, remedy }]
-}
-
-/// Volume of the spheres over that of the box.
-fn solid_fraction(scene: &Scene) -> f64 {
-    let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
-    let volume = solids.map(|solid| match solid.shape {
-        Shape::Sphere { radius } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
-        Shape::Cells { .. } => 0.0,
-    });
-    volume.sum::<f64>() / scene.setup.domain.cell_count() as f64
 }
 
 /// The superficial velocity through a bed, cells per step, and where it comes from: that of an inlet, or

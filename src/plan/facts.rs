@@ -5,11 +5,16 @@ use std::f64::consts::PI;
 
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
-use psmrt_reference::solids::{Shape, Solid};
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
+use psmrt_reference::solids::Solid;
 
 use crate::cases::{CaseError, Table};
 use crate::estimate::si_velocity;
+use crate::estimate::spheres::spheres;
+use crate::estimate::stability::mapped;
 use crate::scene::Scene;
+use crate::stability::limits::Measured;
+use crate::tradeoff::evidence::SolidKnob;
 
 const ARRAYS: &str = include_str!("../../golden/sphere_arrays/literature.csv");
 const SHAFTS: &str = include_str!("../../golden/stokes_settling/literature.csv");
@@ -38,6 +43,8 @@ pub enum Limit {
 pub struct Facts {
     /// What limits it.
     pub limit: Limit,
+    /// How its solid cells collide.
+    pub solid: SolidKnob,
     /// Cells along the axes.
     pub cells: [usize; 3],
     /// Axes of one cell, along which nothing changes.
@@ -50,18 +57,12 @@ pub struct Facts {
     pub tau: f64,
     /// Largest velocity that is known beforehand, m/s.
     pub si_velocity: Option<f64>,
-    /// Cells per step that it may reach.
-    pub fastest: f64,
+    /// The flow of the maps of stability that it is held to, and its velocity there, m/s; `None` if no
+    /// velocity is known.
+    pub mapped: Option<(Measured, f64)>,
     /// Longest time that the scene may run, s.
     pub si_time: f64,
 }
-
-/// Above so many cells per step errors of compressibility set in.
-const FASTEST: f64 = 0.1;
-
-/// Through held grains the superficial velocity may be less: in the pores the flow is several times as fast
-/// (golden/stability: a bed of porosity 0.4 survives 0.03 to 0.05 at any relaxation time from 0.51 up).
-const FASTEST_IN_BEDS: f64 = 0.03;
 
 impl Facts {
     /// The facts of a scene; if nothing in it limits the accuracy in a known way, why not.
@@ -100,41 +101,35 @@ impl Facts {
             }
             Limit::Grains { cells: smallest, drag, because }
         };
+        let phase = setup.solid_phase.as_ref().map(|phase| (phase.weighting, phase.operator));
+        let solid = match phase.unwrap_or_default() {
+            (Weighting::NobleTorczynski, SolidOperator::NonEquilibriumBounceBack) => {
+                SolidKnob::Usual
+            }
+            (Weighting::NobleTorczynski, SolidOperator::Superposition) => SolidKnob::Superposition,
+            (Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack) => {
+                SolidKnob::SolidFraction
+            }
+            (Weighting::SolidFraction, SolidOperator::Superposition) => {
+                let why = "it has both B = epsilon and the superposition operator, which no run of the \
+                           evidence has";
+                return Ok(Err(why.to_owned()));
+            }
+        };
         Ok(Ok(Facts {
             limit,
+            solid,
             cells,
             flat,
             si_dx: units.si_dx,
             si_viscosity: nu * units.si_viscosity(),
             tau: setup.collision.tau(),
             si_velocity: velocity,
-            fastest: if spheres.is_empty() || scene.free.is_some() {
-                FASTEST
-            } else {
-                FASTEST_IN_BEDS
-            },
+            mapped: mapped(scene)
+                .map(|(measured, _, speed, _)| (measured, speed * units.si_velocity())),
             si_time: scene.stop.steps as f64 * units.si_dt,
         }))
     }
-}
-
-/// The spheres: solid, radius in cells, and the share of it that lies inside mirror planes.
-fn spheres(scene: &Scene) -> Vec<(&Solid, f64, f64)> {
-    let domain = &scene.setup.domain;
-    let share = |solid: &Solid| {
-        let cuts = (0..3).flat_map(|axis| [(axis, 0, 0.0), (axis, 1, domain.cells()[axis] as f64)]);
-        let is_cut = |&(axis, side, plane): &(usize, usize, f64)| {
-            let mirror = domain.faces().axis(axis)[side] == Face::FreeSlip;
-            mirror && (solid.centre[axis] - plane).abs() < 1e-6
-        };
-        0.5_f64.powi(i32::try_from(cuts.filter(is_cut).count()).unwrap_or(0))
-    };
-    let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
-    let sphere = |solid: &'_ Solid| match solid.shape {
-        Shape::Sphere { radius } => Some(radius),
-        Shape::Cells { .. } => None,
-    };
-    solids.filter_map(|solid| Some((solid, sphere(solid)?, share(solid)))).collect()
 }
 
 /// Drag over Stokes' drag: that of a face-centred array as crowded, or of a shaft as narrow, whichever is

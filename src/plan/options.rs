@@ -3,11 +3,15 @@
 use psmrt_reference::lattice::viscosity;
 
 use super::facts::{Facts, Limit};
+use crate::stability::Model;
 use crate::tradeoff::knobs::CollisionKnob;
 use crate::tradeoff::model::Models;
 
 /// Relaxation times that are tried.
 const TAUS: [f64; 10] = [0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0];
+
+/// Above so many cells per step errors of compressibility set in: the square of the Mach number is 3 %.
+pub const FASTEST: f64 = 0.1;
 
 /// Cells times velocity over viscosity may be so many, as `psmrt check` warns.
 const GRID_REYNOLDS: f64 = 10.0;
@@ -58,17 +62,32 @@ pub struct Way {
 
 /// All ways for a scene on these engines.
 pub fn ways(facts: &Facts, models: &Models, speeds: &[Speed]) -> Vec<Way> {
+    let refinements = refinements(facts);
     let mut ways = Vec::new();
-    for refinement in refinements(facts) {
-        for tau in TAUS {
-            for collision in CollisionKnob::ALL {
+    for tau in TAUS {
+        for collision in CollisionKnob::ALL {
+            let fastest = fastest(facts, tau, collision);
+            for &refinement in &refinements {
                 for speed in speeds {
-                    ways.extend(way(facts, models, refinement, tau, collision, speed));
+                    let knobs = (tau, collision, fastest);
+                    ways.extend(way(facts, models, refinement, knobs, speed));
                 }
             }
         }
     }
     ways
+}
+
+/// How fast the flow that the maps of stability speak of may be, cells per step: what they found to survive
+/// and not to be wrong, and no more than errors of compressibility allow. Nothing where nothing was measured.
+fn fastest(facts: &Facts, tau: f64, collision: CollisionKnob) -> f64 {
+    let Some((measured, _)) = facts.mapped else { return FASTEST };
+    let model = match collision {
+        CollisionKnob::Srt => Model::Srt,
+        CollisionKnob::Dhumieres => Model::DHumieres,
+        CollisionKnob::Magic => Model::Magic,
+    };
+    measured.limit_of(model, tau).map_or(0.0, |limit| limit.most().min(FASTEST))
 }
 
 /// The scene as it is, predicted; `None` if it lies outside the evidence.
@@ -78,8 +97,8 @@ pub fn as_it_is(
     collision: CollisionKnob,
     speed: &Speed,
 ) -> Option<Way> {
-    let cells = facts.cells;
-    way(facts, models, (cells, facts.si_dx), facts.tau, collision, speed)
+    let knobs = (facts.tau, collision, fastest(facts, facts.tau, collision));
+    way(facts, models, (facts.cells, facts.si_dx), knobs, speed)
 }
 
 /// Cells along the axes and edge of a cell, for every grid that fills the box.
@@ -109,27 +128,29 @@ fn way(
     facts: &Facts,
     models: &Models,
     (cells, si_dx): ([usize; 3], f64),
-    tau: f64,
-    collision: CollisionKnob,
+    (tau, collision, fastest): (f64, CollisionKnob, f64),
     speed: &Speed,
 ) -> Option<Way> {
     let nu = viscosity(tau);
     let si_dt = nu * si_dx * si_dx / facts.si_viscosity;
     let velocity = facts.si_velocity.map(|si_velocity| si_velocity * si_dt / si_dx);
-    if velocity.is_some_and(|u| u > facts.fastest || u / nu > GRID_REYNOLDS) {
+    let mapped = facts.mapped.map_or(0.0, |(_, si_velocity)| si_velocity * si_dt / si_dx);
+    if mapped > fastest || velocity.is_some_and(|u| u > FASTEST || u / nu > GRID_REYNOLDS) {
         return None;
     }
     let finer = facts.si_dx / si_dx;
     let (resolution, error, band) = match facts.limit {
         Limit::Grains { cells, drag, .. } => {
-            let model = models.of_grains(collision)?;
             let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
             let d = cells * finer;
-            if !within(model.ranges[0], d) || !within(model.ranges[1], tau) {
+            let found = models.with_grains((collision, facts.solid), d, tau, drag)?;
+            if !within(found.ranges[0], d) || !within(found.ranges[1], tau) {
                 return None;
             }
-            let error = model.error(d, tau, drag);
-            (d, error, [error / model.band(), error * model.band()])
+            let [low, high] = found.band;
+            // An error that may have either sign may be nothing.
+            let least = if low * high < 0.0 { 0.0 } else { low.abs().min(high.abs()) };
+            (d, found.error.abs(), [least, low.abs().max(high.abs())])
         }
         Limit::Plates { cells } => {
             let h = cells * finer;

@@ -95,7 +95,7 @@ pub enum Motion {
 
 /// How grains act on the fluid. The defaults are what converges (golden/tradeoff): with `solid_fraction` the
 /// flow through an array is up to 55 % too slow at tau 0.6 and up to 7 times too fast at 1.5, and right in
-/// between by cancellation only; `superposition` errs 1.7 to 2.7 times as much as the default; sampled solid
+/// between by cancellation only; `superposition` errs 1.4 to 2.9 times as much as the default, flow by flow; sampled solid
 /// fractions change the error by a fifth with 2 points along each axis, and by 2 % with 5 (medians).
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -13,7 +13,7 @@ use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
-use super::{Flow, Found, LabError, Line, Model, Search, is_mapped};
+use super::{Flow, Found, LabError, Line, Model, Search};
 use crate::cases::EngineName;
 use crate::engine::Engine;
 
@@ -87,9 +87,6 @@ pub(super) const BY_INLET: Flow = Flow {
                 line.variant == "free" || line.weighting != Some(Weighting::SolidFraction);
             is_thin && [0.501, 0.51, 0.6, 1.0].contains(&line.tau)
         });
-        if engine == EngineName::Wgpu {
-            all.retain(|line| line.variant == "pressure");
-        }
         all
     },
     run: by_inlet,
@@ -108,7 +105,6 @@ fn lines(engine: EngineName) -> Vec<Line> {
         line.weighting == Some(Weighting::NobleTorczynski)
             || (line.model != Model::Magic && ![0.500_01, 0.55, 0.8, 2.0].contains(&line.tau))
     });
-    all.retain(is_mapped);
     all
 }
 

@@ -9,6 +9,7 @@ use psmrt_reference::guard::{GuardSettings, Symptom};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
+use super::start::populations;
 use super::{LabError, Line};
 use crate::cases::EngineName;
 use crate::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
@@ -48,6 +49,26 @@ impl Lab {
             EngineName::Wgpu => {
                 let gpu = self.gpu.as_ref().ok_or(LabError::NoDevice)?;
                 Ok(Box::new(KernelEngine::starting_from(setup, free, gpu, state)?))
+            }
+        }
+    }
+
+    /// A fluid without solids in a periodic box at its start, with the stress of its velocity field.
+    pub(super) fn flowing(
+        &self,
+        line: &Line,
+        setup: &Setup,
+        state: impl Fn(Vec3) -> (f64, Vec3),
+    ) -> Result<Box<dyn Engine>, LabError> {
+        let domain = &setup.domain;
+        let centre = |cell| domain.centre(domain.coordinates(cell));
+        let states: Vec<_> = (0..domain.cell_count()).map(|cell| state(centre(cell))).collect();
+        let f = populations(&setup.collision, domain.cells(), &states)?;
+        match line.engine {
+            EngineName::Reference => Ok(Box::new(ReferenceEngine::from_populations(setup, f)?)),
+            EngineName::Wgpu => {
+                let gpu = self.gpu.as_ref().ok_or(LabError::NoDevice)?;
+                Ok(Box::new(KernelEngine::from_populations(setup, gpu, &f)?))
             }
         }
     }

@@ -99,6 +99,14 @@ pub struct Limit {
     pub right: Option<f64>,
 }
 
+impl Limit {
+    /// The largest velocity that survives and that the map does not call wrong. Where it calls all wrong
+    /// (beds at large tau, on its own grid of 13 cells per diameter), velocity is not what is wrong.
+    pub fn most(&self) -> f64 {
+        self.right.map_or(self.lives, |right| right.min(self.lives))
+    }
+}
+
 impl Measured {
     /// What the map says of a collision: the smaller of the limits at the measured relaxation times on
     /// either side. `None` where nothing was measured: rates of one's own, tau beyond the map.

@@ -9,7 +9,7 @@
 //!
 //! | file | flows |
 //! |---|---|
-//! | `periodic.rs` | shear layer, Taylor–Green vortex, ABC flow |
+//! | `periodic.rs`, `start.rs` | shear layer, Taylor–Green vortex, ABC flow; how they start |
 //! | `beds.rs` | ordered bed, by a body force and by an inlet |
 //! | `movers.rs` | free grains at density ratios from 1 to 10, with the lagged and the kept inside |
 //! | `touching.rs` | contacts that are hard or brief; grains that overlap; several grains in one cell |
@@ -22,6 +22,7 @@ mod periodic;
 pub mod record;
 mod search;
 mod spectral;
+mod start;
 mod touching;
 
 use psmrt_reference::collision::Collision;
@@ -137,15 +138,6 @@ impl Line {
             Some(Weighting::SolidFraction) => "eps",
         }
     }
-}
-
-/// Whether a line is mapped: all in double precision; in single precision, which differs in its rounding
-/// alone, some: the two collisions that scenes use, their default weight, every other relaxation time.
-fn is_mapped(line: &Line) -> bool {
-    line.engine == EngineName::Reference
-        || (line.model != Model::Magic
-            && line.weighting != Some(Weighting::SolidFraction)
-            && ![0.500_1, 0.55, 0.8, 2.0].contains(&line.tau))
 }
 
 /// How a run ended.

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use nalgebra::Matrix3;
 use psmrt_reference::lattice::Vec3;
 
 /// The matrix `D` with `(D f)_i = f'(x_i)` for a field of `n` points one apart.
@@ -22,10 +23,11 @@ fn matrix(n: usize) -> Vec<f64> {
     entries
 }
 
-/// The vorticity of a periodic velocity field, x fastest. The sides are even numbers of cells, or 1.
-pub(super) fn vorticity(velocity: &[Vec3], cells: [usize; 3]) -> Vec<Vec3> {
+/// The gradient of a periodic velocity field, x fastest: entry (α, β) is `∂_α u_β`. The sides are even
+/// numbers of cells, or 1.
+pub(super) fn gradient(velocity: &[Vec3], cells: [usize; 3]) -> Vec<Matrix3<f64>> {
     let strides = [1, cells[0], cells[0] * cells[1]];
-    let mut found = vec![Vec3::zeros(); velocity.len()];
+    let mut found = vec![Matrix3::zeros(); velocity.len()];
     for axis in 0..3 {
         let (n, stride) = (cells[axis], strides[axis]);
         if n == 1 {
@@ -37,12 +39,19 @@ pub(super) fn vorticity(velocity: &[Vec3], cells: [usize; 3]) -> Vec<Vec3> {
             let start = cell - i * stride;
             let along: Vec3 =
                 (0..n).map(|j| derivative[i * n + j] * velocity[start + j * stride]).sum();
-            // ω = Σ_axis e_axis × ∂u/∂x_axis
-            let unit = Vec3::from_fn(|k, _| if k == axis { 1.0 } else { 0.0 });
-            *found += unit.cross(&along);
+            found.set_row(axis, &along.transpose());
         }
     }
     found
+}
+
+/// The vorticity of a periodic velocity field, likewise.
+pub(super) fn vorticity(velocity: &[Vec3], cells: [usize; 3]) -> Vec<Vec3> {
+    // ω_γ = ∂_α u_β - ∂_β u_α
+    let turn = |d: Matrix3<f64>| {
+        Vec3::new(d[(1, 2)] - d[(2, 1)], d[(2, 0)] - d[(0, 2)], d[(0, 1)] - d[(1, 0)])
+    };
+    gradient(velocity, cells).into_iter().map(turn).collect()
 }
 
 #[cfg(test)]

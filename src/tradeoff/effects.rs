@@ -60,7 +60,7 @@ fn turned(knobs: &Knobs) -> Option<(String, Knobs)> {
     } else if knobs.storage != Storage::F64 {
         default.storage = Storage::F64;
         let speed = if knobs.lattice_velocity < 5e-4 { "u < 5e-4" } else { "u >= 1e-3" };
-        format!("storage {}, {speed}", knobs.storage.word())
+        format!("storage {} ({speed})", knobs.storage.word())
     } else if knobs.weight != "NT" {
         default.weight = "NT".to_owned();
         "weight B = eps".to_owned()

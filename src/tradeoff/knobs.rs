@@ -35,11 +35,13 @@ pub enum Flow {
     Settling,
     /// Through a bed: a face-centred array as dense as sand, like `Fcc`.
     Seepage,
+    /// Through eight spheres at random places in a periodic box; geometry and `cells` as in arrays.
+    Random,
 }
 
 impl Flow {
     /// All of them, in the order of the report.
-    pub const ALL: [Flow; 7] = [
+    pub const ALL: [Flow; 8] = [
         Flow::Poiseuille,
         Flow::Sc,
         Flow::Bcc,
@@ -47,6 +49,7 @@ impl Flow {
         Flow::SphereDrag,
         Flow::Settling,
         Flow::Seepage,
+        Flow::Random,
     ];
 
     /// As tables and the command line spell it.
@@ -59,6 +62,7 @@ impl Flow {
             Flow::SphereDrag => "sphere_drag",
             Flow::Settling => "settling",
             Flow::Seepage => "seepage",
+            Flow::Random => "random",
         }
     }
 
@@ -73,6 +77,7 @@ impl Flow {
             Flow::Sc | Flow::SphereDrag => Some(("SC", 1)),
             Flow::Bcc => Some(("BCC", 2)),
             Flow::Fcc | Flow::Seepage => Some(("FCC", 4)),
+            Flow::Random => Some(("random", 8)),
             Flow::Poiseuille | Flow::Settling => None,
         }
     }

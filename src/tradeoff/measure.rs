@@ -37,6 +37,8 @@ impl Runner {
             arrays: oracle.literature("sphere_arrays", "literature.csv")?,
             shafts: oracle.literature("stokes_settling", "literature.csv")?,
             ducts: oracle.literature("tradeoff", "literature.csv")?,
+            random: oracle.literature("tradeoff", "random.csv")?,
+            random_drag: oracle.literature("tradeoff", "random_drag.csv")?,
         };
         let kernel = gpu.map(|gpu| Bench::new(golden, Some(gpu), |_| {}));
         Ok(Runner { oracle, kernel, literature, machine: super::machine_words() })
@@ -125,7 +127,7 @@ fn error(knobs: &Knobs, drag: f64, run: &Finished) -> Result<f64, CaseError> {
             // The knob is Stokes' velocity; walls divide it by the drag.
             Ok(-grain.velocity.z / knobs.lattice_velocity * drag - 1.0)
         }
-        Flow::Sc | Flow::Bcc | Flow::Fcc | Flow::Seepage | Flow::SphereDrag => {
+        Flow::Sc | Flow::Bcc | Flow::Fcc | Flow::Seepage | Flow::SphereDrag | Flow::Random => {
             let d = knobs.cells_per_diameter().ok_or_else(|| missing("no diameter"))?;
             let count = knobs.flow.lattice().map_or(1, |(_, count)| count);
             let force = setup.body_force.map_or(0.0, |force| force.x);

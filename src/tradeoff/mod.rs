@@ -8,7 +8,7 @@
 //! | `storage.rs` | the oracle with populations kept in fewer digits |
 //! | `record.rs` | rows in a file that grows and can be gone on with |
 //! | `front.rs` | runs that no other beats in cost and error |
-//! | `evidence.rs`, `fit.rs`, `model.rs` | error models, fitted to the committed rows |
+//! | `evidence.rs`, `fit.rs`, `model.rs`, `model_eps.rs` | error models, fitted to the committed rows |
 //! | `cost.rs`, `effects.rs` | what a cell update costs; what one knob alone does |
 //! | `figures.rs`, `tables.rs` | what is shown |
 //! | `trial.rs`, `support.rs` | what was kept back, and what stands behind a prediction |
@@ -22,6 +22,7 @@ pub mod front;
 pub mod knobs;
 pub mod measure;
 pub mod model;
+pub mod model_eps;
 pub mod record;
 pub mod setting;
 pub mod storage;

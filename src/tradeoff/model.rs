@@ -9,6 +9,9 @@
 //!   error = K^m [a (τ - 1/2)/d² + b/d^p]
 //! ```
 //!
+//! The superposition operator has its own numbers in the same form. The weight `B = ε` errs in two ways of
+//! opposite sign (`model_eps.rs`).
+//!
 //! **Plates.** Half-way bounce-back slips by an amount that is known in closed form; the rest is of second
 //! order in the lattice velocity (d'Humières' rates treat the third-order moments as if the flow stood
 //! still):
@@ -23,9 +26,10 @@
 use psmrt_reference::collision::Collision;
 use psmrt_reference::rates::Rates;
 
-use super::evidence::{GrainPoint, WallPoint};
+use super::evidence::{GrainPoint, SolidKnob, WallPoint};
 use super::fit::{Fit, least_squares, rms};
 use super::knobs::CollisionKnob;
+use super::model_eps::EpsModel;
 use crate::exact::magic_parameter;
 
 /// Below this the models say nothing: errors are then as large as what the place of a grain on the grid
@@ -33,13 +37,15 @@ use crate::exact::magic_parameter;
 pub const LEAST_ERROR: f64 = 0.01;
 
 /// Quantile of the normal distribution that leaves 2.5 % at either end.
-const QUANTILE: f64 = 1.96;
+pub(super) const QUANTILE: f64 = 1.96;
 
-/// The error of flows with grains, for one collision.
+/// The error of flows with grains, for one collision of the fluid and of solid cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrainModel {
     /// The collision.
     pub collision: CollisionKnob,
+    /// How solid cells collide.
+    pub solid: SolidKnob,
     /// `ln a`, `ln b`, `m`, `p`, and what they leave.
     pub fit: Fit,
     /// Scatter of the logarithm of the error in geometries left out of the fit.
@@ -62,31 +68,15 @@ const START: [f64; 4] = [1.1, 1.0, 0.8, 3.0];
 impl GrainModel {
     /// Fits the points of a collision whose error is large enough to be of one sign. `None` if there are
     /// too few, or of fewer than three geometries.
-    pub fn fit(collision: CollisionKnob, points: &[GrainPoint]) -> Option<Self> {
-        let own = |point: &&GrainPoint| point.collision == collision && point.error > LEAST_ERROR;
+    pub fn fit(collision: CollisionKnob, solid: SolidKnob, points: &[GrainPoint]) -> Option<Self> {
+        let own = |point: &&GrainPoint| {
+            point.collision == collision && point.solid == solid && point.error > LEAST_ERROR
+        };
         let own: Vec<&GrainPoint> = points.iter().filter(own).collect();
         let fit = Self::through(&own)?;
-        let mut geometries: Vec<&str> = own.iter().map(|point| &*point.geometry).collect();
-        geometries.sort_unstable();
-        geometries.dedup();
-        if geometries.len() < 3 {
-            return None;
-        }
-        let mut unseen = Vec::new();
-        for left_out in &geometries {
-            let (out, others): (Vec<_>, Vec<_>) =
-                own.iter().partition(|point| point.geometry == *left_out);
-            let fit = Self::through(&others)?;
-            unseen.extend(out.iter().map(|point| residual(&fit.parameters, point)));
-        }
-        let range = |value: fn(&GrainPoint) -> f64| {
-            own.iter().fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], point| {
-                [low.min(value(point)), high.max(value(point))]
-            })
-        };
-        let ranges = [range(|p| p.cells), range(|p| p.tau), range(|p| p.drag)];
-        let counts = [own.len(), geometries.len()];
-        Some(GrainModel { collision, fit, scatter: rms(&unseen), counts, ranges })
+        let (scatter, geometries) = unseen(&own, Self::through, residual)?;
+        let counts = [own.len(), geometries];
+        Some(GrainModel { collision, solid, fit, scatter, counts, ranges: ranges(&own) })
     }
 
     fn through(points: &[&GrainPoint]) -> Option<Fit> {
@@ -102,6 +92,39 @@ impl GrainModel {
     pub fn band(&self) -> f64 {
         (QUANTILE * self.scatter).exp()
     }
+}
+
+/// Scatter of what fits leave of geometries that were left out of them, each in turn, and the number of
+/// geometries. `None` if there are fewer than three.
+pub(super) fn unseen(
+    own: &[&GrainPoint],
+    through: impl Fn(&[&GrainPoint]) -> Option<Fit>,
+    residual: impl Fn(&[f64], &GrainPoint) -> f64,
+) -> Option<(f64, usize)> {
+    let mut geometries: Vec<&str> = own.iter().map(|point| &*point.geometry).collect();
+    geometries.sort_unstable();
+    geometries.dedup();
+    if geometries.len() < 3 {
+        return None;
+    }
+    let mut left = Vec::new();
+    for left_out in &geometries {
+        let (out, others): (Vec<_>, Vec<_>) =
+            own.iter().partition(|point| point.geometry == *left_out);
+        let fit = through(&others)?;
+        left.extend(out.iter().map(|point| residual(&fit.parameters, point)));
+    }
+    Some((rms(&left), geometries.len()))
+}
+
+/// Smallest and largest cells per diameter, relaxation time and drag.
+pub(super) fn ranges(own: &[&GrainPoint]) -> [[f64; 2]; 3] {
+    let range = |value: fn(&GrainPoint) -> f64| {
+        own.iter().fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], point| {
+            [low.min(value(point)), high.max(value(point))]
+        })
+    };
+    [range(|p| p.cells), range(|p| p.tau), range(|p| p.drag)]
 }
 
 fn residual(parameters: &[f64], point: &GrainPoint) -> f64 {
@@ -169,11 +192,24 @@ impl WallModel {
 /// The narrowest band between plates.
 const NARROWEST: f64 = 1.02;
 
+/// A predicted error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prediction {
+    /// The error, signed.
+    pub error: f64,
+    /// What 95 % lie between.
+    pub band: [f64; 2],
+    /// Cells per diameter and relaxation times that the evidence has.
+    pub ranges: [[f64; 2]; 2],
+}
+
 /// All models that the evidence supports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Models {
-    /// With grains, one a collision.
+    /// With grains, one a collision, and one with the superposition operator.
     pub grains: Vec<GrainModel>,
+    /// With grains and the weight `B = ε`.
+    pub eps: Option<EpsModel>,
     /// Between plates; none for the magic rates, which are exact there.
     pub walls: Vec<WallModel>,
 }
@@ -182,15 +218,40 @@ impl Models {
     /// Fitted to these points.
     pub fn fit(grains: &[GrainPoint], walls: &[WallPoint]) -> Self {
         let all = CollisionKnob::ALL;
+        let methods = all
+            .map(|knob| (knob, SolidKnob::Usual))
+            .into_iter()
+            .chain([(CollisionKnob::Dhumieres, SolidKnob::Superposition)]);
         Models {
-            grains: all.iter().filter_map(|&knob| GrainModel::fit(knob, grains)).collect(),
+            grains: methods
+                .filter_map(|(knob, solid)| GrainModel::fit(knob, solid, grains))
+                .collect(),
+            eps: EpsModel::fit(grains),
             walls: all.iter().filter_map(|&knob| WallModel::fit(knob, walls)).collect(),
         }
     }
 
-    /// The model with grains of a collision.
-    pub fn of_grains(&self, collision: CollisionKnob) -> Option<&GrainModel> {
-        self.grains.iter().find(|model| model.collision == collision)
+    /// The model with grains of a collision of the fluid and of solid cells.
+    pub fn of_grains(&self, collision: CollisionKnob, solid: SolidKnob) -> Option<&GrainModel> {
+        self.grains.iter().find(|model| model.collision == collision && model.solid == solid)
+    }
+
+    /// The error with grains; `None` where nothing was fitted.
+    pub fn with_grains(
+        &self,
+        (collision, solid): (CollisionKnob, SolidKnob),
+        d: f64,
+        tau: f64,
+        drag: f64,
+    ) -> Option<Prediction> {
+        if solid == SolidKnob::SolidFraction {
+            let model = self.eps.as_ref().filter(|_| collision == CollisionKnob::Dhumieres)?;
+            return Some(model.prediction(d, tau, drag));
+        }
+        let model = self.of_grains(collision, solid)?;
+        let error = model.error(d, tau, drag);
+        let band = [error / model.band(), error * model.band()];
+        Some(Prediction { error, band, ranges: [model.ranges[0], model.ranges[1]] })
     }
 
     /// The model between plates of a collision.

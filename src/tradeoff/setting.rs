@@ -40,6 +40,10 @@ pub struct Literature {
     pub shafts: Table,
     /// `tradeoff/literature.csv`.
     pub ducts: Table,
+    /// `tradeoff/random.csv`: where the spheres of random beds are.
+    pub random: Table,
+    /// `tradeoff/random_drag.csv`: their drag, by our own finest grids.
+    pub random_drag: Table,
 }
 
 impl Setting {
@@ -56,13 +60,22 @@ impl Setting {
             Flow::SphereDrag => {
                 let own = literature.ducts.with(&[("solid_fraction", &knobs.geometry)])?;
                 let drag = own.number("K")?;
-                (array(knobs, drag)?, drag)
+                (array(knobs, drag, &[])?, drag)
+            }
+            Flow::Random => {
+                let wanted = [("solid_fraction", &*knobs.geometry)];
+                let drag = literature.random_drag.with(&wanted)?.number("K")?;
+                let places = literature.random.with(&wanted)?;
+                let [x, y, z] = ["x", "y", "z"].map(|axis| places.numbers(axis));
+                let (x, y, z) = (x?, y?, z?);
+                let sites: Vec<[f64; 3]> = (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect();
+                (array(knobs, drag, &sites)?, drag)
             }
             Flow::Sc | Flow::Bcc | Flow::Fcc | Flow::Seepage => {
                 let lattice = knobs.flow.lattice().map_or("", |(name, _)| name);
                 let wanted = [("lattice", lattice), ("solid_fraction_c", &*knobs.geometry)];
                 let drag = literature.arrays.with(&wanted)?.number("K_computed")?;
-                (array(knobs, drag)?, drag)
+                (array(knobs, drag, &[])?, drag)
             }
         };
         let (scene, mut changes) = flow;
@@ -115,7 +128,12 @@ fn quiet(knobs: &Knobs, wanted: f64) -> f64 {
     }
 }
 
-fn array(knobs: &Knobs, drag: f64) -> Result<(&'static str, Vec<String>), CaseError> {
+/// Spheres held in a periodic box: at `places` (edges of the box), or a quarter of an array between mirrors.
+fn array(
+    knobs: &Knobs,
+    drag: f64,
+    places: &[[f64; 3]],
+) -> Result<(&'static str, Vec<String>), CaseError> {
     let (Some((lattice, count)), Some(d)) = (knobs.flow.lattice(), knobs.cells_per_diameter())
     else {
         return Err(CaseError::Table(format!("{} is no array", knobs.flow.word())));
@@ -130,8 +148,10 @@ fn array(knobs: &Knobs, drag: f64) -> Result<(&'static str, Vec<String>), CaseEr
     let rows = (0.5 * volume / (stokes * drag)).ceil() + 8.0;
     // The start takes the leak for known: x = 3 (τ - 1/2) K/d² (tests/sphere_arrays.rs).
     let start = u * (1.0 + 3.0 * (knobs.tau - 0.5) * drag / (d * d));
+    let (scene, sites) = if places.is_empty() { sites(lattice) } else { ("random", places) };
+    let across = if places.is_empty() { n / 2 } else { n };
     let mut changes = vec![
-        format!("domain.cells=[{n}, {}, {}]", n / 2, n / 2),
+        format!("domain.cells=[{n}, {across}, {across}]"),
         format!("domain.dx={si_dx:e}"),
         format!("body_force.acceleration=[{:e}, 0.0, 0.0]", force * si_dx / (si_dt * si_dt)),
         format!("initial.velocity=[{:e}, 0.0, 0.0]", start * si_dx / si_dt),
@@ -139,7 +159,6 @@ fn array(knobs: &Knobs, drag: f64) -> Result<(&'static str, Vec<String>), CaseEr
         format!("stop.steps={}", if knobs.is_emulated() { 20.0 } else { 100.0 } * rows),
         format!("stop.steady.tolerance={:e}", quiet(knobs, 2e-5)),
     ];
-    let (scene, sites) = sites(lattice);
     for (i, site) in sites.iter().enumerate() {
         let [x, y, z] = site.map(|share| share * f64::from(n) * si_dx);
         changes.push(format!("grains[{i}].centre=[{x:e}, {y:e}, {z:e}]"));

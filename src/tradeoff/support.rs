@@ -1,9 +1,10 @@
 //! What stands behind a prediction, in words.
 
-use super::evidence::{GrainPoint, committed_sweep, grain_points};
+use super::evidence::{GrainPoint, SolidKnob, committed_sweep, grain_points};
 use super::knobs::CollisionKnob;
 use super::model::{LEAST_ERROR, Models};
-use super::trial::{committed_results, trials};
+use super::model_eps::EpsModel;
+use super::trial::{committed_results, score, trials};
 use crate::cases::CaseError;
 
 /// How many of the nearest runs are named.
@@ -12,12 +13,18 @@ const NEAREST: usize = 3;
 /// Evidence for an error with grains.
 pub fn of_grains(
     models: &Models,
-    collision: CollisionKnob,
+    (collision, solid): (CollisionKnob, SolidKnob),
     cells: f64,
     tau: f64,
     drag: f64,
 ) -> Result<Vec<String>, CaseError> {
-    let Some(model) = models.of_grains(collision) else { return Ok(Vec::new()) };
+    let Some(model) = models.of_grains(collision, solid) else {
+        return Ok(vec![format!(
+            "with B = epsilon two errors of opposite sign cancel here and not there: what was left out of the \
+             fit lies within a factor of {:.2} of the velocity (src/tradeoff/model_eps.rs)",
+            models.eps.as_ref().map_or(f64::NAN, EpsModel::band)
+        )]);
+    };
     let p = &model.fit.parameters;
     let [[least, most], [low, high], [light, heavy]] = model.ranges;
     let mut lines = vec![
@@ -38,14 +45,15 @@ pub fn of_grains(
             model.band()
         ),
     ];
-    let trials = trials(models, &committed_results()?);
-    let hits = trials.iter().filter(|trial| trial.hits()).count();
+    let [[first, of_first], [hits, of]] = score(&trials(models, &committed_results()?)?);
     lines.push(format!(
-        "configurations kept back from the fits: {hits} of {} within their band",
-        trials.len()
+        "configurations kept back from the fits: {hits} of {of} within their band, and {first} of {of_first} \
+         of those that the bands were widened after"
     ));
     let mut points = grain_points(&committed_sweep()?)?;
-    points.retain(|point| point.collision == collision && point.error > LEAST_ERROR);
+    points.retain(|point| {
+        point.collision == collision && point.solid == solid && point.error > LEAST_ERROR
+    });
     let distance = |point: &GrainPoint| {
         let ratio = |a: f64, b: f64| (a / b).ln().powi(2);
         ratio(point.cells, cells) + ratio(point.tau - 0.5, tau - 0.5) + ratio(point.drag, drag)

@@ -18,6 +18,7 @@ pub fn runs(flow: Flow, quick: bool) -> Vec<Knobs> {
         Flow::Bcc => arrays(flow, "0.3", &[8, 12, 16, 20, 24, 32], quick),
         Flow::Fcc => arrays(flow, "0.45", &[8, 12, 16, 20, 24, 32], quick),
         Flow::Seepage => arrays(flow, "0.6", &[8, 12, 16, 20, 24, 32], quick),
+        Flow::Random => random(quick),
     }
 }
 
@@ -82,8 +83,11 @@ fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> 
     let coarse = grid(&[8, 12, 16], &FEW_TAUS, &[Dhumieres]);
     let mut runs = grid(cells, &TAUS, &[Dhumieres]);
     runs.extend(grid(&[8, 12, 16, 24], &[0.6, 0.8, 1.0, 1.5], &[Srt, Magic]));
-    runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
-    runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    let mut solid = coarse.clone();
+    solid.extend(grid(&[8, 12, 16], &[1.0, 2.0], &[Dhumieres]));
+    solid.extend(grid(&[24], &[0.6, 0.8, 1.0, 1.5], &[Dhumieres]));
+    runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&solid, |knobs| "superposition".clone_into(&mut knobs.operator)));
     runs.extend(changed(&grid(&[8, 16], &FEW_TAUS, &[Dhumieres]), on_kernel));
     let sampled: &[u32] = if flow == Flow::Sc { &[1, 2, 3, 5, 10] } else { &[2, 5] };
     for &samples in sampled {
@@ -103,6 +107,22 @@ fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> 
     for storage in [Storage::F32, Storage::F16Shifted] {
         runs.extend(changed(&few, |knobs| knobs.storage = storage));
     }
+    runs
+}
+
+fn random(quick: bool) -> Vec<Knobs> {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+        let all = ["0.2", "0.45"];
+        all.map(|fraction| self::grid(Flow::Random, fraction, cells, taus, collisions)).concat()
+    };
+    if quick {
+        return grid(&[12], &[0.8, 1.5], &[Dhumieres]);
+    }
+    let mut runs = grid(&[12, 16, 24, 32], &[0.6, 0.8, 1.0, 1.5, 2.0], &[Dhumieres]);
+    runs.extend(grid(&[12, 16, 24], &FEW_TAUS, &[Srt, Magic]));
+    let solid = grid(&[12, 16, 24], &FEW_TAUS, &[Dhumieres]);
+    runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&solid, |knobs| "superposition".clone_into(&mut knobs.operator)));
     runs
 }
 
@@ -126,10 +146,16 @@ fn settling(quick: bool) -> Vec<Knobs> {
     runs.extend(changed(&grid(&[8], &[1.5, 0.8], &[Dhumieres]), on_kernel));
     runs.extend(grid(&[12], &[2.0, 1.5, 1.0], &[Dhumieres]));
     // Twice as narrow and so eight times as cheap: finer grids.
-    let narrow =
-        |cells: &[u32], taus: &[f64]| self::grid(Flow::Settling, "0.5", cells, taus, &[Dhumieres]);
-    runs.extend(narrow(&[4, 8], &[2.0, 1.5, 0.8]));
-    runs.extend(narrow(&[16], &[2.0]));
+    let narrow = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+        self::grid(Flow::Settling, "0.5", cells, taus, collisions)
+    };
+    runs.extend(narrow(&[4, 6, 8, 12], &[2.0, 1.5, 0.8, 0.6], &[Dhumieres]));
+    runs.extend(narrow(&[4, 8, 12], &[1.5, 0.8], &[Srt, Magic]));
+    let solid = narrow(&[6, 8, 12], &FEW_TAUS, &[Dhumieres]);
+    runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    runs.extend(narrow(&[16], &[2.0, 1.5, 1.0, 0.8], &[Dhumieres]));
+    runs.extend(grid(&[16], &[2.0, 1.5], &[Dhumieres]));
     runs
 }
 
@@ -146,5 +172,12 @@ fn sphere_drag(quick: bool) -> Vec<Knobs> {
     runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
     runs.extend(grid(&[20], &[1.5], &[Srt, Magic]));
     runs.extend(grid(&[24], &[2.0], &[Dhumieres]));
+    runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    runs.extend(grid(&[30], &[2.0, 1.5, 1.0], &[Dhumieres]));
+    runs.extend(grid(&[30], &[1.5], &[Srt, Magic]));
+    runs.extend(changed(&grid(&[30], &[1.5], &[Dhumieres]), |knobs| {
+        "eps".clone_into(&mut knobs.weight);
+    }));
+    runs.extend(grid(&[40], &[2.0, 1.5, 1.0], &[Dhumieres]));
     runs
 }

@@ -1,7 +1,8 @@
 //! What is made of the rows of a sweep: fits, fronts, and predictions beside measurements, as tables.
 
+use super::evidence::SolidKnob;
 use super::figures::{on_front, placed, problems};
-use super::knobs::COLUMNS;
+use super::knobs::{COLUMNS, CollisionKnob};
 use super::model::Models;
 use super::record::Row;
 use super::trial::Trial;
@@ -12,6 +13,7 @@ pub fn fits(models: &Models) -> Table {
     let columns = [
         "model",
         "collision",
+        "solid",
         "runs",
         "geometries",
         "parameter",
@@ -22,38 +24,38 @@ pub fn fits(models: &Models) -> Table {
     ];
     let mut table = Table::new(&columns);
     let mut add =
-        |words: [&str; 2], counts: [usize; 2], fit: [(&str, f64, f64); 4], scatter, band| {
-            for (name, value, error) in fit.into_iter().filter(|(name, ..)| !name.is_empty()) {
-                table.add(vec![
-                    words[0].to_owned(),
-                    words[1].to_owned(),
-                    counts[0].to_string(),
-                    counts[1].to_string(),
-                    name.to_owned(),
-                    format!("{value:.4}"),
-                    format!("{error:.4}"),
-                    format!("{scatter:.4}"),
-                    format!("{band:.3}"),
-                ]);
+        |words: [&str; 3], counts: [usize; 2], fit: &[(&str, f64, f64)], scatter, band| {
+            for (name, value, error) in fit {
+                let mut row: Vec<String> = words.map(str::to_owned).into();
+                row.extend(counts.map(|count| count.to_string()));
+                row.push((*name).to_owned());
+                row.extend([format!("{value:.4}"), format!("{error:.4}")]);
+                row.extend([format!("{scatter:.4}"), format!("{band:.3}")]);
+                table.add(row);
             }
         };
+    // The error of a logarithm is a relative one.
+    let whole = |ln: f64, error: f64| (ln.exp(), ln.exp() * error);
     for model in &models.grains {
         let (p, e) = (&model.fit.parameters, &model.fit.errors);
-        // The error of a logarithm is a relative one.
-        let rows = [
-            ("a", p[0].exp(), p[0].exp() * e[0]),
-            ("b", p[1].exp(), p[1].exp() * e[1]),
-            ("m", p[2], e[2]),
-            ("p", p[3], e[3]),
-        ];
-        add(["grains", model.collision.word()], model.counts, rows, model.scatter, model.band());
+        let ((a, da), (b, db)) = (whole(p[0], e[0]), whole(p[1], e[1]));
+        let rows = [("a", a, da), ("b", b, db), ("m", p[2], e[2]), ("p", p[3], e[3])];
+        let words = ["grains", model.collision.word(), model.solid.word()];
+        add(words, model.counts, &rows, model.scatter, model.band());
+    }
+    if let Some(model) = &models.eps {
+        let (p, e) = (&model.fit.parameters, &model.fit.errors);
+        let ((a, da), (b, db)) = (whole(p[0], e[0]), whole(p[2], e[2]));
+        let rows =
+            [("a", a, da), ("m", p[1], e[1]), ("b", b, db), ("n", p[3], e[3]), ("q", p[4], e[4])];
+        let words = ["grains", CollisionKnob::Dhumieres.word(), SolidKnob::SolidFraction.word()];
+        add(words, model.counts, &rows, model.scatter, model.band());
     }
     for model in &models.walls {
         let (p, e) = (&model.fit.parameters, &model.fit.errors);
-        let none = ("", 0.0, 0.0);
-        let rows = [("s", p[0], e[0]), ("c", p[1], e[1]), none, none];
-        let counts = [model.count, 1];
-        add(["plates", model.collision.word()], counts, rows, model.fit.scale, model.band());
+        let rows = [("s", p[0], e[0]), ("c", p[1], e[1])];
+        let words = ["plates", model.collision.word(), "none"];
+        add(words, [model.count, 1], &rows, model.fit.scale, model.band());
     }
     table
 }
@@ -77,16 +79,21 @@ pub fn fronts(rows: &[Row], costs: &Table) -> Table {
 
 /// What was kept back, predicted and measured.
 pub fn check(trials: &[Trial]) -> Table {
-    let columns: Vec<&str> =
-        COLUMNS.iter().copied().chain(["predicted", "low", "high", "measured", "within"]).collect();
+    let columns: Vec<&str> = COLUMNS
+        .iter()
+        .copied()
+        .chain(["predicted", "low", "high", "measured", "within", "bands_widened_after"])
+        .collect();
     let mut table = Table::new(&columns);
     for trial in trials {
         let mut row = trial.row.knobs.row();
-        let [low, high] = trial.ends();
+        let [low, high] = trial.ends;
         for value in [trial.predicted, low, high, trial.measured] {
             row.push(format!("{value:.4e}"));
         }
-        row.push(if trial.hits() { "yes" } else { "no" }.to_owned());
+        row.extend(
+            [trial.hits(), trial.widened].map(|is| if is { "yes" } else { "no" }.to_owned()),
+        );
         table.add(row);
     }
     table

@@ -4,42 +4,49 @@ use psmrt_reference::collision::Collision;
 use psmrt_reference::rates::Rates;
 
 use super::evidence::{grain_point, wall_point};
-use super::knobs::CollisionKnob;
+use super::knobs::{CollisionKnob, Knobs};
 use super::model::{LEAST_ERROR, Models};
 use super::record::Row;
 use crate::cases::{CaseError, Table};
 
 const RESULTS: &str = include_str!("../../golden/tradeoff/held_back_results.csv");
 
+/// The list itself, part of the program.
+const LIST: &str = include_str!("../../golden/tradeoff/held_back.csv");
+
+/// How many of the list were chosen first: bands were widened, once, after these had been run.
+const FIRST: usize = 27;
+
 /// A prediction and what came of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
     /// What was run.
     pub row: Row,
+    /// Whether bands were widened after it had been run: it cannot show that they hold.
+    pub widened: bool,
     /// The predicted error.
     pub predicted: f64,
-    /// The factor by which it may be off either way.
-    pub band: f64,
+    /// What 95 % lie between. Where less than the least error of the models is predicted, all below that
+    /// error's band is within it.
+    pub ends: [f64; 2],
     /// The measured error.
     pub measured: f64,
 }
 
 impl Trial {
-    /// The ends of the band. Where less than the least error of the models is predicted, all below that
-    /// error's band is within it.
-    pub fn ends(&self) -> [f64; 2] {
-        if self.predicted < LEAST_ERROR && self.row.knobs.cells_per_diameter().is_some() {
-            let most = LEAST_ERROR * self.band;
-            return [-most, most];
-        }
-        [self.predicted / self.band, self.predicted * self.band]
-    }
-
     /// Whether the measured error lies within the band.
     pub fn hits(&self) -> bool {
-        let [low, high] = self.ends();
-        (low..=high).contains(&self.measured)
+        (self.ends[0]..=self.ends[1]).contains(&self.measured)
     }
+}
+
+/// How many of some trials hit, and how many there are: of those that bands were widened after, and of the
+/// others.
+pub fn score(trials: &[Trial]) -> [[usize; 2]; 2] {
+    [true, false].map(|widened| {
+        let own = || trials.iter().filter(|trial| trial.widened == widened);
+        [own().filter(|trial| trial.hits()).count(), own().count()]
+    })
 }
 
 /// The committed results of what was kept back.
@@ -48,21 +55,38 @@ pub fn committed_results() -> Result<Vec<Row>, CaseError> {
 }
 
 /// Each of these runs beside its prediction; runs without an error or without a model are left out.
-pub fn trials(models: &Models, results: &[Row]) -> Vec<Trial> {
-    results.iter().filter_map(|row| trial(models, row)).collect()
+pub fn trials(models: &Models, results: &[Row]) -> Result<Vec<Trial>, CaseError> {
+    let list = Table::parse("golden/tradeoff/held_back.csv", LIST)?;
+    let list: Vec<Knobs> =
+        list.rows.iter().map(|row| Knobs::from_row(row)).collect::<Result<_, _>>()?;
+    let widened = |row: &Row| list.iter().take(FIRST).any(|knobs| *knobs == row.knobs);
+    Ok(results
+        .iter()
+        .filter_map(|row| {
+            let (predicted, ends, measured) = predicted(models, row)?;
+            Some(Trial { row: row.clone(), widened: widened(row), predicted, ends, measured })
+        })
+        .collect())
 }
 
-fn trial(models: &Models, row: &Row) -> Option<Trial> {
+/// What is predicted, the band, and what was measured.
+fn predicted(models: &Models, row: &Row) -> Option<(f64, [f64; 2], f64)> {
     let collision = row.knobs.collision;
-    let (predicted, band, measured) = if let Some(point) = wall_point(row) {
+    if let Some(point) = wall_point(row) {
         let model = models.of_walls(collision)?;
-        let predicted = model.error(point.cells, point.tau, point.velocity);
-        (predicted, model.band(), point.error)
-    } else {
-        let (point, model) = (grain_point(row)?, models.of_grains(collision)?);
-        (model.error(point.cells, point.tau, point.drag), model.band(), point.error)
+        let error = model.error(point.cells, point.tau, point.velocity);
+        return Some((error, [error / model.band(), error * model.band()], point.error));
+    }
+    let point = grain_point(row)?;
+    let method = (collision, point.solid);
+    let found = models.with_grains(method, point.cells, point.tau, point.drag)?;
+    let ends = match models.of_grains(collision, point.solid) {
+        Some(model) if found.error < LEAST_ERROR => {
+            [-LEAST_ERROR * model.band(), LEAST_ERROR * model.band()]
+        }
+        _ => found.band,
     };
-    Some(Trial { row: row.clone(), predicted, band, measured })
+    Some((found.error, ends, point.error))
 }
 
 /// The knob that a collision is, if it is one of them.

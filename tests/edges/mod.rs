@@ -3,16 +3,20 @@
 
 #![allow(dead_code, reason = "the tests of each engine use a part of this")]
 
+mod near;
+mod vtk;
+
 use std::fs;
 use std::path::Path;
 use std::process::Output;
 
+pub use near::{assert_near, in_one_cell_and_too_hard, near_frontiers};
+
 use psmrt::cases::EngineName;
 use psmrt::scene::Scene;
-use psmrt::stability::{FLOWS, Found, Lab, Line, Model, Outcome};
+use psmrt::stability::{Lab, Line, Model};
 use psmrt_reference::domain::Faces;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::setup::SolidPhase;
 
 use crate::cli::{Folder, stderr, stdout};
@@ -53,8 +57,7 @@ pub fn scene(cells: [usize; 3], more: &str) -> String {
     format!("[domain]\ncells = {cells:?}\ndx = 1e-5\n{REST}{more}")
 }
 
-/// Every number in every table, array and picture below `folder` is finite. Pictures and arrays for
-/// ParaView hold the same values as the arrays for NumPy, which are read here.
+/// Every number in every table, array and picture below `folder` is finite.
 pub fn assert_all_finite(folder: &Path) {
     let mut files = 0;
     for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
@@ -80,6 +83,7 @@ pub fn assert_all_finite(folder: &Path) {
                     assert!(value.is_finite(), "{name} holds {value}");
                 }
             }
+            Some("vti" | "vtp") => vtk::assert_finite(&bytes, &name.to_string()),
             Some("svg" | "json") => {
                 let text = String::from_utf8(bytes).unwrap();
                 assert!(!text.contains("NaN") && !text.contains(">inf"), "{name}");
@@ -296,58 +300,5 @@ pub fn any_units(engine: EngineName, lab: &Lab, budget: &mut Budget) {
             );
         }
         assert!(flux > 1e-5 && grain.velocity.z < -1e-4, "nothing moves: {found:?}");
-    }
-}
-
-/// A run close to a frontier, and whether it is to survive.
-pub struct Near {
-    pub flow: &'static str,
-    pub model: Model,
-    pub weighting: Option<Weighting>,
-    pub variant: &'static str,
-    pub tau: f64,
-    pub value: f64,
-    pub lives: bool,
-}
-
-/// Runs on either side of frontiers: the values tried next to them (`golden/stability`), so that small
-/// changes of the rounding do not matter, with the cells of their flow.
-pub fn near_frontiers() -> Vec<(Near, u64)> {
-    let mut all = Vec::new();
-    let mut both = |flow, cells, model, weighting, variant, tau, [inside, outside]: [f64; 2]| {
-        for (value, lives) in [(inside, true), (outside, false)] {
-            all.push((Near { flow, model, weighting, variant, tau, value, lives }, cells));
-        }
-    };
-    let nt = Some(Weighting::NobleTorczynski);
-    both("shear_layer", 2304, Model::Srt, None, "", 0.501, [0.1, 0.28]);
-    both("shear_layer", 2304, Model::DHumieres, None, "", 0.501, [0.28, 0.5]);
-    both("abc", 4096, Model::Srt, None, "", 0.500_001, [0.28, 0.5]);
-    both("bed_force", 4096, Model::Srt, nt, "", 0.501, [0.005, 0.02]);
-    both("bed_force", 4096, Model::DHumieres, nt, "", 0.501, [0.03, 0.07]);
-    both("bed_force", 4096, Model::Srt, nt, "", 0.6, [0.03, 0.07]);
-    both("movers", 1728, Model::DHumieres, nt, "lagged", 0.6, [0.8, 0.2]);
-    all
-}
-
-/// Makes the run and holds it to what it should be; a run that is to break must be stopped by the guard,
-/// at a step that is one of its looks.
-pub fn assert_near(
-    (near, cells): &(Near, u64),
-    engine: EngineName,
-    lab: &Lab,
-    budget: &mut Budget,
-) {
-    let Near { flow, model, weighting, variant, tau, value, lives } = *near;
-    let line = Line { engine, model, weighting, variant, tau };
-    let flow = FLOWS.iter().find(|known| known.name == flow).unwrap();
-    let found = (flow.run)(lab, &line, value).or_else(Found::of).unwrap();
-    budget.spend(found.steps * cells);
-    println!("{} {line:?} {value}: {found:?}", flow.name);
-    if lives {
-        assert!(found.outcome.lived(), "{} {line:?} at {value}: {found:?}", flow.name);
-    } else {
-        assert_eq!(found.outcome, Outcome::Stopped, "{} {line:?} at {value}", flow.name);
-        assert!(found.how.is_some());
     }
 }
