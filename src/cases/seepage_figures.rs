@@ -79,6 +79,8 @@ fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
     for (packing, cells, label) in [
         ("random 3", "8.0000", "31 spheres, 8 cells"),
         ("random 3", "12.0000", "31 spheres, 12 cells"),
+        ("random 3", "16.0000", "31 spheres, 16 cells"),
+        ("random 3", "24.0000", "31 spheres, 24 cells"),
         ("random 4", "8.0000", "73 spheres, 8 cells"),
         ("random 5", "8.0000", "143 spheres, 8 cells"),
     ] {
@@ -165,16 +167,20 @@ fn stability_figure(stability: &Table) -> Result<Figure, CaseError> {
         ("srt", "solid_fraction", "SRT, B = epsilon"),
         ("mrt", "solid_fraction", "MRT, B = epsilon"),
     ] {
-        let points = limits(stability, "reference", collision, weighting)?;
+        let points = limits(stability, "reference", collision, weighting, "8.0000")?;
         figure = figure.with(Series::line_points(label, points));
     }
-    let mut single = limits(stability, "wgpu", "srt", "noble_torczynski")?;
-    single.extend(limits(stability, "wgpu", "mrt", "noble_torczynski")?);
+    let single = |cells: &str| {
+        let mut both = limits(stability, "wgpu", "srt", "noble_torczynski", cells)?;
+        both.extend(limits(stability, "wgpu", "mrt", "noble_torczynski", cells)?);
+        Ok::<_, CaseError>(both)
+    };
     let across = |y: f64| vec![(0.0008, y), (0.2, y)];
     let inlet = (0..=40).map(|i| 0.0008 * 250.0_f64.powf(f64::from(i) / 40.0));
     let inlet = inlet.map(|above| (above, doubling(above))).filter(|p| p.1 < 500.0).collect();
     Ok(figure
-        .with(Series::points("SRT and MRT, single precision", single))
+        .with(Series::points("SRT and MRT, single precision", single("8.0000")?))
+        .with(Series::points("the same, 16 cells", single("16.0000")?))
         .with(Series::dashed("through the paper's inlet", inlet).with_colour(6))
         .with(Series::dashed("the paper, MRT: 30", across(30.0)).with_colour(1))
         .with(Series::dashed("the paper, SRT: 2", across(2.0)).with_colour(0))
@@ -188,12 +194,13 @@ fn limits(
     engine: &str,
     collision: &str,
     weighting: &str,
+    cells: &str,
 ) -> Result<Vec<(f64, f64)>, CaseError> {
     let own = stability.with(&[
         ("engine", engine),
         ("collision", collision),
         ("weighting", weighting),
-        ("cells_per_diameter", "8.0000"),
+        ("cells_per_diameter", cells),
     ])?;
     let mut points = Vec::new();
     for tau in own.values("tau")? {
