@@ -19,6 +19,7 @@ mod poiseuille;
 mod poiseuille_figures;
 mod seepage;
 mod seepage_figures;
+mod seepage_inlet;
 mod seepage_study;
 mod sphere_arrays;
 mod sphere_drag;

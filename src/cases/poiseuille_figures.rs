@@ -44,7 +44,7 @@ fn profile_figure(walls: &Table, rows: &Table) -> Result<Figure, CaseError> {
         let known = walls.with(&[("tau", TAU), ("collision", name)])?;
         let out = known.number("wall_offset_outward_lattice_units_H8")?;
         let slip = out * (8.0 + out) / 16.0;
-        let label = format!("{}, by the known place of its wall", word(rates));
+        let label = format!("{}, wall where it is known to be", word(rates));
         let shifted = (0..=80).map(|i| -out + f64::from(i) / 80.0 * (8.0 + 2.0 * out));
         let shifted = shifted.map(|y| (y, parabola(y) + slip)).collect();
         figure = figure.with(Series::dashed(label.clone(), shifted).with_colour(colour));
