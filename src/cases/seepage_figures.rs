@@ -77,15 +77,17 @@ fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
         all.push((format!("9 spheres, 8 cells, {engine}"), rows.with(&wanted)?));
     }
     let mrt = steady(study, "mrt")?.with(&[("tau", "0.51")])?;
-    for (packing, cells, label) in [
-        ("random 3", "8.0000", "31 spheres, 8 cells"),
-        ("random 3", "12.0000", "31 spheres, 12 cells"),
-        ("random 3", "16.0000", "31 spheres, 16 cells"),
-        ("random 3", "24.0000", "31 spheres, 24 cells"),
-        ("random 4", "8.0000", "73 spheres, 8 cells"),
-        ("random 5", "8.0000", "143 spheres, 8 cells"),
+    // Seven kinds in all, as many as there are markers.
+    for (kinds, label) in [
+        (&[("random 3", "8.0000")] as &[_], "31 spheres, 8 cells"),
+        (&[("random 3", "12.0000")], "31 spheres, 12 cells"),
+        (&[("random 3", "16.0000"), ("random 3", "24.0000")], "31 spheres, 16 and 24 cells"),
+        (&[("random 4", "8.0000"), ("random 5", "8.0000")], "73 and 143 spheres, 8 cells"),
     ] {
-        let own = mrt.with(&[("packing", packing), ("cells_per_diameter", cells)])?;
+        let mut own = Table::default();
+        for (packing, cells) in kinds {
+            own.append(mrt.with(&[("packing", *packing), ("cells_per_diameter", *cells)])?);
+        }
         all.push((label.to_owned(), own));
     }
     let srt = steady(study, "srt")?.with(&[("tau", "0.51"), ("packing", "random 3")])?;
