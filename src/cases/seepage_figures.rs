@@ -192,30 +192,32 @@ fn stability_figure(stability: &Table, inlet: &Table) -> Result<Figure, CaseErro
         let points = limits(stability, "reference", collision, weighting, "8.0000")?;
         figure = figure.with(Series::line_points(label, points));
     }
-    let single = |cells: &str| {
-        let mut both = limits(stability, "wgpu", "srt", "noble_torczynski", cells)?;
-        both.extend(limits(stability, "wgpu", "mrt", "noble_torczynski", cells)?);
-        Ok::<_, CaseError>(both)
-    };
-    let fine = single("16.0000")?;
-    if !fine.is_empty() {
-        figure = figure.with(Series::points("single precision, 16 cells", fine));
-    }
     let across = |y: f64| vec![(0.0008, y), (0.2, y)];
     let doubling = |bed| {
         let taus = (0..=40).map(|i| 0.0008 * 250.0_f64.powf(f64::from(i) / 40.0));
         let curve = taus.map(|above| (above, seepage_inlet::doubling(above, bed)));
         curve.filter(|p| p.1 < 500.0).collect::<Vec<_>>()
     };
-    for (colour, collision) in ["srt", "mrt"].into_iter().enumerate() {
+    // Rings for SRT, crosses for MRT.
+    let kinds = [("srt", "SRT", Marker::Ring), ("mrt", "MRT", Marker::Cross)];
+    for (cells, colours, label) in
+        [("8.0000", [0, 1], "single precision"), ("16.0000", [5, 5], "16 cells, single precision")]
+    {
+        for ((collision, name, marker), colour) in kinds.into_iter().zip(colours) {
+            let points = limits(stability, "wgpu", collision, "noble_torczynski", cells)?;
+            if !points.is_empty() {
+                let series =
+                    Series::new(format!("{name}, {label}"), Style::Points(Some(marker)), points);
+                figure = figure.with(series.with_colour(colour));
+            }
+        }
+    }
+    for (collision, name, marker) in kinds {
         let points = seepage_inlet::limits(inlet, "wgpu", collision)?;
-        let label = format!("by inlet, {}", collision.to_uppercase());
-        let marker = if colour == 0 { Marker::Ring } else { Marker::Cross };
-        figure =
-            figure.with(Series::new(label, Style::Points(Some(marker)), points).with_colour(6));
+        let series = Series::new(format!("{name}, by inlet"), Style::Points(Some(marker)), points);
+        figure = figure.with(series.with_colour(6));
     }
     Ok(figure
-        .with(Series::points("SRT and MRT, single precision", single("8.0000")?))
         .with(Series::dashed("twice the density: paper", doubling(seepage_inlet::PAPER)).with_colour(6))
         .with(Series::line("twice the density: inlet.toml", doubling(seepage_inlet::SMALL)).with_colour(6))
         .with(Series::dashed("the paper, MRT: 30", across(30.0)).with_colour(1))
@@ -241,7 +243,11 @@ fn limits(
     let mut points = Vec::new();
     for tau in own.values("tau")? {
         let stable = largest_stable(&own, &[("tau", &tau)])?;
-        if stable > 0.0 {
+        // The force was doubled until a run was stopped, or Re was past 200.
+        let all = own.with(&[("tau", &tau)])?;
+        let is_whole =
+            stable > 200.0 || all.with(&[("outcome", "stable")])?.rows.len() < all.rows.len();
+        if stable > 0.0 && is_whole {
             points.push((tau.parse().map_or(f64::NAN, |tau: f64| tau - 0.5), stable));
         }
     }
