@@ -41,7 +41,7 @@ fn sphere_arrays_hold_their_claims() {
 }
 
 fn a_settling_grain_holds_its_claims() {
-    holds("stokes_settling", &mut Budget::kernel(43_000_000));
+    holds("stokes_settling", &mut Budget::kernel(24_500_000));
 }
 
 fn a_settling_cloud_holds_its_claims() {

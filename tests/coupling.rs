@@ -305,13 +305,13 @@ fn buoyancy_by_body_force(d: u16, tau: f64, budget: &mut Budget) -> f64 {
 
 #[test]
 fn buoyancy_by_a_body_force_on_the_fluid_is_too_small_and_less_so_on_finer_grids() {
-    let mut budget = Budget::oracle(45_000_000);
-    let found = [4, 8, 16].map(|d| buoyancy_by_body_force(d, 1.0, &mut budget));
-    println!("buoyancy over the displaced weight at 4, 8 and 16 cells per diameter: {found:.4?}");
+    let mut budget = Budget::oracle(12_000_000);
+    let found = [4, 8, 12].map(|d| buoyancy_by_body_force(d, 1.0, &mut budget));
+    println!("buoyancy over the displaced weight at 4, 8 and 12 cells per diameter: {found:.4?}");
     let lacking = found.map(|buoyancy| 1.0 - buoyancy);
     // What is displaced is the sum of B, not the volume: cells cut by the surface, a layer about one
     // cell thick, count less, so that what lacks falls as the first order of the cell size at least.
-    // (0.42, 0.20 and 0.08.)
-    assert!(lacking[0] > 0.1 && lacking[1] < 0.6 * lacking[0] && lacking[2] < 0.75 * lacking[1]);
+    // (0.42, 0.20 and 0.12; 0.08 at 16 cells.) First order leaves 1/2 and 2/3; a tenth more is allowed.
+    assert!(lacking[0] > 0.1 && lacking[1] < 0.55 * lacking[0] && lacking[2] < 0.73 * lacking[1]);
     assert!(lacking[2] > 0.0);
 }

@@ -15,6 +15,7 @@ pub const CASE: Case = Case {
          table in double precision (cargo run --example confusion f64); `cargo test` makes it anew.",
     ],
     scenes: &[],
+    literature: &[],
     rows: "confusion.csv",
     full: "cargo run --release --example confusion made these rows; minutes",
     measure,

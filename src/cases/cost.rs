@@ -16,6 +16,7 @@ pub const CASE: Case = Case {
          processor): on a GPU, which waits for its memory, models that compute more and read no more cost less.",
     ],
     scenes: &[],
+    literature: &[],
     rows: "cost.csv",
     full: "cargo run --release --example model_cost made these rows; minutes",
     measure: |bench| bench.literature(CASE.name, CASE.rows),

@@ -17,6 +17,7 @@ pub const CASE: Case = Case {
          velocity changes by less than 1e-9 of itself (kernel: 1e-6) in 200 steps, three times in a row.",
     ],
     scenes: &["scene.toml"],
+    literature: &["literature.csv"],
     rows: "expected.csv",
     full: "the quick form is the full one",
     measure,

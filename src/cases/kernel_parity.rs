@@ -17,6 +17,7 @@ pub const CASE: Case = Case {
          run --example kernel_parity; `cargo test` holds both to the same bounds anew.",
     ],
     scenes: &[],
+    literature: &[],
     rows: "parity.csv",
     full: "cargo run --example kernel_parity made these rows; minutes",
     measure,

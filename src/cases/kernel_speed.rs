@@ -19,6 +19,7 @@ pub const CASE: Case = Case {
          --example kernel_speed.",
     ],
     scenes: &[],
+    literature: &[],
     rows: "speed.csv",
     full: "cargo run --example kernel_speed made these rows; minutes",
     measure,

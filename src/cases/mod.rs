@@ -16,8 +16,10 @@ mod kernel_parity;
 mod kernel_speed;
 mod packed_bed;
 mod poiseuille;
+mod poiseuille_figures;
 mod seepage;
 mod seepage_figures;
+mod seepage_inlet;
 mod seepage_study;
 mod sphere_arrays;
 mod sphere_drag;
@@ -31,6 +33,7 @@ mod suspension;
 mod table;
 mod ten_cate;
 mod tradeoff;
+mod twins;
 
 use std::io;
 use std::ops::RangeInclusive;
@@ -64,6 +67,9 @@ pub struct Case {
     pub about: &'static [&'static str],
     /// Its scene files, in its folder.
     pub scenes: &'static [&'static str],
+    /// The files in its folder with what it is held to: cited, exact or computed by others, entered by hand
+    /// and never written by a run. None where a case compares psmrt with itself.
+    pub literature: &'static [&'static str],
     /// The file in its folder with reviewed rows: the oracle's at the quick scale, or, without scenes,
     /// those of the full form or of another program.
     pub rows: &'static str,

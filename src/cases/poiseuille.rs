@@ -1,9 +1,9 @@
 //! Flow between two plates, against its parabola.
 
-use psmrt_report::{Axis, Figure, PowerLaw, Series};
+use psmrt_report::{Figure, PowerLaw};
 
 use super::bench::collision_changes;
-use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table, poiseuille_figures};
 use crate::exact::Comparison;
 use crate::output::records::profile_rows;
 
@@ -21,6 +21,7 @@ pub const CASE: Case = Case {
          mean velocity changes by less than 1e-12 of itself (kernel: 2e-6) in 500 steps, three times in a row.",
     ],
     scenes: &["scene.toml", "dhumieres.toml"],
+    literature: &["bounceback_wall.csv"],
     rows: "expected.csv",
     full: "cargo run --release -- report --full --case poiseuille goes on to 128 cells; minutes",
     measure,
@@ -28,26 +29,37 @@ pub const CASE: Case = Case {
     draw,
 };
 
-const CELLS: [u32; 3] = [8, 16, 32];
+pub(super) const CELLS: [u32; 3] = [8, 16, 32];
 const FULL_CELLS: [u32; 5] = [8, 16, 32, 64, 128];
 
 /// Relaxation times at which the place of the wall is looked at, as the literature spells them.
 const TAUS: [&str; 3] = ["0.55", "0.8", "1.5"];
 
 /// Rates, and what `bounceback_wall.csv` calls them.
-const WALLS: [(&str, &str); 3] =
+pub(super) const WALLS: [(&str, &str); 3] =
     [("magic", "TRT_3/16"), ("mrt", "MRT_dHumieres_1.19_1.4_1.2_1.98"), ("srt", "SRT")];
 
+/// `u1` to `u8`: velocity of each cell over the largest exact one, on the grid of 8 cells only.
+const COLUMNS: [&str; 15] = [
+    "engine",
+    "rates",
+    "tau",
+    "cells_across",
+    "relative_l2",
+    "slip_l2",
+    "wall_outwards",
+    "u1",
+    "u2",
+    "u3",
+    "u4",
+    "u5",
+    "u6",
+    "u7",
+    "u8",
+];
+
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
-    let mut table = Table::new(&[
-        "engine",
-        "rates",
-        "tau",
-        "cells_across",
-        "relative_l2",
-        "slip_l2",
-        "wall_outwards",
-    ]);
+    let mut table = Table::new(&COLUMNS);
     for rates in ["magic", "mrt"] {
         for &cells in if bench.is_full() { &FULL_CELLS[..] } else { &CELLS } {
             table.add(row(bench, rates, "0.8", cells, &[])?);
@@ -98,7 +110,7 @@ fn row(
     let si_slip = found.si_rows.iter().map(|[_, u, e]| u - e).sum::<f64>() / along.len() as f64;
     let gap = exact.si_gap;
     let root = (gap * gap + 8.0 * exact.si_viscosity * si_slip / exact.si_acceleration).sqrt();
-    Ok(vec![
+    let mut row = vec![
         bench.engine_name().word().to_owned(),
         rates.to_owned(),
         tau.to_owned(),
@@ -106,7 +118,12 @@ fn row(
         format!("{:.6e}", found.relative_l2),
         format!("{:.6e}", found.explained_l2),
         format!("{:.6e}", 0.5 * (root - gap) / dx),
-    ])
+    ];
+    if cells == CELLS[0] {
+        row.extend(along.iter().map(|u| format!("{:.6}", u / exact.si_top_velocity())));
+    }
+    row.resize(COLUMNS.len(), String::new());
+    Ok(row)
 }
 
 /// Relative change of the mean velocity in 500 steps below which the flow is steady: far below the
@@ -164,14 +181,14 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
 }
 
 /// The rows at tau = 0.8 on the three grids.
-fn by_grid(rows: &Table, engine: &str, rates: &str) -> Result<Table, CaseError> {
+pub(super) fn by_grid(rows: &Table, engine: &str, rates: &str) -> Result<Table, CaseError> {
     let mut own = rows.with(&[("engine", engine), ("rates", rates), ("tau", "0.8")])?;
     own.rows.truncate(CELLS.len());
     Ok(own)
 }
 
 /// The rows on 8 cells at all relaxation times: wall found and wall known.
-fn by_tau(
+pub(super) fn by_tau(
     rows: &Table,
     engine: &str,
     (rates, name): (&str, &str),
@@ -212,40 +229,5 @@ fn wall_claim(engine: &str, walls: &Table, rows: &Table) -> Result<Claim, CaseEr
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
-    let mut figure = Figure::new(
-        "Poiseuille flow: error against resolution",
-        Axis::log("cells from plate to plate").ticks(&CELLS.map(f64::from)),
-        Axis::log("relative L2 error of the velocity"),
-    );
-    for engine in rows.values("engine")? {
-        for (rates, name) in [("magic", "magic"), ("mrt", "d'Humieres")] {
-            let points = by_grid(rows, &engine, rates)?.points("cells_across", "relative_l2")?;
-            figure = figure.with(Series::points(format!("{name}, {engine}"), points));
-        }
-    }
-    let slip = by_grid(rows, &rows.rows[0][0], "mrt")?;
-    let slip = Series::line("the wall's known slip", slip.points("cells_across", "slip_l2")?);
-    let walls = golden.table("bounceback_wall.csv")?;
-    let mut place = Figure::new(
-        "Where the wall stands, 8 cells from plate to plate",
-        Axis::linear("tau").range(0.5, 2.05),
-        Axis::linear("cells outside the half-way place"),
-    );
-    for (colour, (rates, name)) in WALLS.into_iter().enumerate() {
-        let word = match rates {
-            "magic" => "Lambda = 3/16",
-            "mrt" => "d'Humieres",
-            _ => "SRT",
-        };
-        let known = walls.with(&[("collision", name)])?;
-        let known = known.points("tau", "wall_offset_outward_lattice_units_H8")?;
-        place = place.with(Series::line(format!("{word}, known"), known).with_colour(colour));
-        for engine in rows.values("engine")? {
-            let found = by_tau(rows, &engine, (rates, name), &walls)?;
-            let points = found.into_iter().map(|(tau, found, _)| (tau, found)).collect();
-            place =
-                place.with(Series::points(format!("{word}, {engine}"), points).with_colour(colour));
-        }
-    }
-    Ok(vec![figure.with(slip), place])
+    poiseuille_figures::all(&golden.table("bounceback_wall.csv")?, rows)
 }

@@ -5,7 +5,7 @@ use psmrt_report::Figure;
 use super::packed_bed::{FCC_FRACTION, POROSITY_OF_SMALL};
 use super::{
     BED_LAWS, Bed, Bench, Case, CaseError, Claim, Golden, Packing, Table, seepage_figures,
-    seepage_study,
+    seepage_inlet, seepage_study,
 };
 
 /// A packed bed.
@@ -15,7 +15,7 @@ pub const CASE: Case = Case {
     about: &[
         "A body force drives water through a bed of equal spheres at random places that repeats itself without \
          end; it stands for the pressure gradient. The paper drives 1,000 spheres by a velocity inlet with free \
-         outflow (paper.toml); without ends and walls every sphere of the bed counts, and density stays constant. \
+         outflow (paper.toml; paper.csv at half of its resolution); without ends and walls every sphere of the bed counts, and density stays constant. \
          psi = (dP/L) d eps3/(rho U2 (1 - eps)) and Re = U d/(nu (1 - eps)), with d the diameter, eps the \
          porosity by the volumes of the spheres, and U the superficial velocity: the mean mass flux over the \
          density, solid cells included.",
@@ -24,16 +24,23 @@ pub const CASE: Case = Case {
          et al. (2007) and Tang et al. (2015). Real beds scatter about any of them by 10 to 15 %. The one exact \
          value is that of the ordered bed (face-centred cubic at the same porosity of 0.4).",
         "What the paper leaves open is chosen so: tau = 0.51, since the spheres of partially saturated cells leak, \
-         the more the larger tau; 8 cells per diameter in the quick rows (9 spheres) and in the study (study.csv, \
-         31 spheres), which has 8 to 16 of the ordered bed, 16 in the paper; Noble and Torczynski's weight, exact solid fractions, \
+         the more the larger tau; 8 cells per diameter in the quick rows (9 spheres), 8 to 16 in the study (study.csv, \
+         31 spheres), 16 in the paper; Noble and Torczynski's weight, exact solid fractions, \
          MRT with d'Humieres' rates unless SRT is named. Steady: U changes by less than 3e-4 of itself (study: 1e-4) \
          in three rows in a row, a row being a fifth of the time d2/(4 pi2 nu). The force, not tau, sets Re.",
+        "At Re = 100 coarse grids give too little: over Beetstra's law 0.82 at 8 cells per diameter, 0.95 at 12, 1.02 at \
+         16 and 1.04 at 24, where at Re = 1 one finds 1.00 on each. It is the grid, which at 8 cells has one cell for a boundary layer, \
+         d/sqrt(U d/nu). It is not the size of the bed: with 8 cells 73 and 143 spheres have 0.82 and 0.74, five beds \
+         of 31 0.71 to 0.82. It is not the velocity of 0.23 cells per step at its peak: with half of it (tau = 0.505) \
+         psi at Re = 100 over psi at Re = 1 gains 2 % at 8 cells and 3 % at 12. And it is not the law: Tang's and Ergun's are within 5 % of it.",
         "How fast a flow stays stable (stability.csv): the force is doubled until the guard stops the run. The \
          paper says Re = 2 for SRT and 30 for MRT and gives neither tau nor its weight. The last figure shows the \
-         limits found, and what a velocity inlet adds to them: through the paper's bed, 218 cells long, it needs \
-         a pressure that at large tau doubles the density of the fluid.",
+         limits found, and what a velocity inlet adds to them (inlet.csv): through the paper's bed, 218 cells long, it \
+         needs a pressure that at large tau doubles the density of the fluid. 18 spheres at 8 cells per diameter \
+         (inlet.toml) need as much, with either collision.",
     ],
     scenes: &["scene.toml", "ordered.toml", "inlet.toml", "paper.toml"],
+    literature: &["literature.csv"],
     rows: "expected.csv",
     full: "cargo run --release --example seepage_study made study.csv and stability.csv (hours; it can be cut off); the paper's own size: psmrt run golden/seepage/paper.toml --engine wgpu",
     measure,
@@ -59,6 +66,12 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     }
     table.add(Bed { collision: "srt", ..BED }.row(bench)?);
     table.add(Bed { packing: Packing::Fcc, ..BED }.row(bench)?);
+    if bench.is_full() {
+        let packing = Packing::Random { side: 3.0, count: 31, seed: 1 };
+        for reynolds in [1.0, 10.0, 30.0, 100.0] {
+            table.add(Bed { packing, reynolds, side_cells: 36, ..BED }.row(bench)?);
+        }
+    }
     Ok(table)
 }
 
@@ -94,6 +107,19 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
                       15 % at Re = 30; at 8 cells and tau = 0.51 the grid is worth another 5 %",
             });
         }
+        // At the full scale only.
+        let larger = own.with(&[("packing", "random 3")])?;
+        for (reynolds, ratio) in larger.values("Re_wanted")?.into_iter().zip(over_law(&larger)?) {
+            claims.push(Claim {
+                what: format!(
+                    "{engine}: 31 spheres at 12 cells, Re about {reynolds}: psi over Beetstra et al."
+                ),
+                measured: ratio,
+                allowed: 0.9..=1.1,
+                why: "one bed, of a kind that scatters by 6 % (study.csv); Tang's law is 4 % away at Re = 1 and 100; the \
+                      grid is worth 5 %",
+            });
+        }
         let slow = |collision: &str| {
             random.with(&[("collision", collision), ("Re_wanted", "1")])?.number("psi_Re")
         };
@@ -122,10 +148,13 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
     }
     let (study, stability) = (golden.table("study.csv")?, golden.table("stability.csv")?);
     claims.extend(seepage_study::claims(&study, &stability, exact)?);
+    let [inlet, paper] = [golden.table("inlet.csv")?, golden.table("paper.csv")?];
+    claims.extend(seepage_inlet::claims(&inlet, &paper)?);
     Ok(claims)
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let (study, stability) = (golden.table("study.csv")?, golden.table("stability.csv")?);
-    seepage_figures::all(rows, &study, &stability, ordered(golden)?)
+    let inlet = golden.table("inlet.csv")?;
+    seepage_figures::all(rows, &study, [&stability, &inlet], ordered(golden)?)
 }

@@ -1,10 +1,10 @@
 //! The figures of seepage.
 
-use psmrt_report::{Axis, Figure, Series};
+use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::seepage::over_law;
 use super::seepage_study::{grids, largest_stable, steady, taus};
-use super::{BED_LAWS, CaseError, Table};
+use super::{BED_LAWS, CaseError, Table, seepage_inlet};
 
 /// Solid fraction at which the laws are drawn.
 const FRACTION: f64 = 0.6;
@@ -13,14 +13,15 @@ const FRACTION: f64 = 0.6;
 pub fn all(
     rows: &Table,
     study: &Table,
-    stability: &Table,
+    [stability, inlet]: [&Table; 2],
     ordered: f64,
 ) -> Result<Vec<Figure>, CaseError> {
     Ok(vec![
         friction_figure(rows, study)?,
         grid_figure(study, ordered)?,
+        law_grid_figure(study)?,
         tau_figure(study)?,
-        stability_figure(stability)?,
+        stability_figure(stability, inlet)?,
     ])
 }
 
@@ -76,13 +77,17 @@ fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
         all.push((format!("9 spheres, 8 cells, {engine}"), rows.with(&wanted)?));
     }
     let mrt = steady(study, "mrt")?.with(&[("tau", "0.51")])?;
-    for (packing, cells, label) in [
-        ("random 3", "8.0000", "31 spheres, 8 cells"),
-        ("random 3", "12.0000", "31 spheres, 12 cells"),
-        ("random 4", "8.0000", "73 spheres, 8 cells"),
-        ("random 5", "8.0000", "143 spheres, 8 cells"),
+    // Seven kinds in all, as many as there are markers.
+    for (kinds, label) in [
+        (&[("random 3", "8.0000")] as &[_], "31 spheres, 8 cells"),
+        (&[("random 3", "12.0000")], "31 spheres, 12 cells"),
+        (&[("random 3", "16.0000"), ("random 3", "24.0000")], "31 spheres, 16 and 24 cells"),
+        (&[("random 4", "8.0000"), ("random 5", "8.0000")], "73 and 143 spheres, 8 cells"),
     ] {
-        let own = mrt.with(&[("packing", packing), ("cells_per_diameter", cells)])?;
+        let mut own = Table::default();
+        for (packing, cells) in kinds {
+            own.append(mrt.with(&[("packing", *packing), ("cells_per_diameter", *cells)])?);
+        }
         all.push((label.to_owned(), own));
     }
     let srt = steady(study, "srt")?.with(&[("tau", "0.51"), ("packing", "random 3")])?;
@@ -128,6 +133,25 @@ fn grid_figure(study: &Table, ordered: f64) -> Result<Figure, CaseError> {
         .note("8 cells per diameter are at 0.0156, 16 at 0.0039; a straight line is second order"))
 }
 
+/// One bed of 31 spheres on several grids, over the law at each Reynolds number.
+fn law_grid_figure(study: &Table) -> Result<Figure, CaseError> {
+    let mut figure = Figure::new(
+        "31 spheres, tau = 0.51: psi over the law against resolution",
+        Axis::linear("(cell size/diameter)²").range(0.0, 0.0165),
+        Axis::linear("psi over Beetstra et al.").range(0.75, 1.15),
+    );
+    let bed = steady(study, "mrt")?.with(&[("packing", "random 3"), ("tau", "0.51")])?;
+    for reynolds in ["1", "10", "30", "100"] {
+        let own = bed.with(&[("seed", "1"), ("Re_wanted", reynolds)])?;
+        let cells = own.numbers("cells_per_diameter")?.into_iter().map(|d| d.powi(-2));
+        let mut points: Vec<_> = cells.zip(over_law(&own)?).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        figure = figure.with(Series::line_points(format!("Re about {reynolds}"), points));
+    }
+    Ok(figure
+        .note("8 cells per diameter are at 0.0156, 12 at 0.0069, 16 at 0.0039; other beds of 31 scatter by 6 %"))
+}
+
 /// What the relaxation time does.
 fn tau_figure(study: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
@@ -152,7 +176,7 @@ fn tau_figure(study: &Table) -> Result<Figure, CaseError> {
 }
 
 /// How fast flows are stable.
-fn stability_figure(stability: &Table) -> Result<Figure, CaseError> {
+fn stability_figure(stability: &Table, inlet: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
         "Largest stable Re in a bed of nine spheres at 8 cells per diameter",
         Axis::log("tau - 1/2").range(0.0008, 0.2),
@@ -165,21 +189,41 @@ fn stability_figure(stability: &Table) -> Result<Figure, CaseError> {
         ("srt", "solid_fraction", "SRT, B = epsilon"),
         ("mrt", "solid_fraction", "MRT, B = epsilon"),
     ] {
-        let points = limits(stability, "reference", collision, weighting)?;
+        let points = limits(stability, "reference", collision, weighting, "8.0000")?;
         figure = figure.with(Series::line_points(label, points));
     }
-    let mut single = limits(stability, "wgpu", "srt", "noble_torczynski")?;
-    single.extend(limits(stability, "wgpu", "mrt", "noble_torczynski")?);
     let across = |y: f64| vec![(0.0008, y), (0.2, y)];
-    let inlet = (0..=40).map(|i| 0.0008 * 250.0_f64.powf(f64::from(i) / 40.0));
-    let inlet = inlet.map(|above| (above, doubling(above))).filter(|p| p.1 < 500.0).collect();
+    let doubling = |bed| {
+        let taus = (0..=40).map(|i| 0.0008 * 250.0_f64.powf(f64::from(i) / 40.0));
+        let curve = taus.map(|above| (above, seepage_inlet::doubling(above, bed)));
+        curve.filter(|p| p.1 < 500.0).collect::<Vec<_>>()
+    };
+    // Rings for SRT, crosses for MRT.
+    let kinds = [("srt", "SRT", Marker::Ring), ("mrt", "MRT", Marker::Cross)];
+    for (cells, colours, label) in
+        [("8.0000", [0, 1], "single precision"), ("16.0000", [5, 5], "16 cells, single precision")]
+    {
+        for ((collision, name, marker), colour) in kinds.into_iter().zip(colours) {
+            let points = limits(stability, "wgpu", collision, "noble_torczynski", cells)?;
+            if !points.is_empty() {
+                let series =
+                    Series::new(format!("{name}, {label}"), Style::Points(Some(marker)), points);
+                figure = figure.with(series.with_colour(colour));
+            }
+        }
+    }
+    for (collision, name, marker) in kinds {
+        let points = seepage_inlet::limits(inlet, "wgpu", collision)?;
+        let series = Series::new(format!("{name}, by inlet"), Style::Points(Some(marker)), points);
+        figure = figure.with(series.with_colour(6));
+    }
     Ok(figure
-        .with(Series::points("SRT and MRT, single precision", single))
-        .with(Series::dashed("through the paper's inlet", inlet).with_colour(6))
+        .with(Series::dashed("twice the density: paper", doubling(seepage_inlet::PAPER)).with_colour(6))
+        .with(Series::line("twice the density: inlet.toml", doubling(seepage_inlet::SMALL)).with_colour(6))
         .with(Series::dashed("the paper, MRT: 30", across(30.0)).with_colour(1))
         .with(Series::dashed("the paper, SRT: 2", across(2.0)).with_colour(0))
         .note("points: the next run, with twice the force, was stopped, or Re was past 200 already")
-        .note("through the paper's inlet: where the pressure under its bed, 218 cells long, doubles the density"))
+        .note("by inlet: last Re that lived in inlet.toml; twice the density: where the pressure under a bed makes it"))
 }
 
 /// The largest stable Re against tau - 1/2.
@@ -188,31 +232,25 @@ fn limits(
     engine: &str,
     collision: &str,
     weighting: &str,
+    cells: &str,
 ) -> Result<Vec<(f64, f64)>, CaseError> {
     let own = stability.with(&[
         ("engine", engine),
         ("collision", collision),
         ("weighting", weighting),
-        ("cells_per_diameter", "8.0000"),
+        ("cells_per_diameter", cells),
     ])?;
     let mut points = Vec::new();
     for tau in own.values("tau")? {
         let stable = largest_stable(&own, &[("tau", &tau)])?;
-        if stable > 0.0 {
+        // The force was doubled until a run was stopped, or Re was past 200.
+        let all = own.with(&[("tau", &tau)])?;
+        let is_whole =
+            stable > 200.0 || all.with(&[("outcome", "stable")])?.rows.len() < all.rows.len();
+        if stable > 0.0 && is_whole {
             points.push((tau.parse().map_or(f64::NAN, |tau: f64| tau - 0.5), stable));
         }
     }
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(points)
-}
-
-/// Re at which the pressure that drives water through 218 cells of the paper's bed (16 cells per diameter,
-/// porosity 0.4) is that of a density twice the reference one: `Δp = c_s² Δρ` with `Δρ = 1`.
-fn doubling(above: f64) -> f64 {
-    let (nu, phi) = (above / 3.0, FRACTION);
-    let (d, length) = (16.0_f64, 218.0);
-    // Δp = L psi U² φ/(d ε³), U = Re ν φ/d, psi = 180/Re + 1.2:  1/3 = A (180 Re + 1.2 Re²)
-    let a = length * nu * nu * phi.powi(3) / (d.powi(3) * (1.0 - phi).powi(3));
-    let c = 1.0 / (3.0 * a);
-    (-180.0 + (180.0 * 180.0 + 4.8 * c).sqrt()) / 2.4
 }

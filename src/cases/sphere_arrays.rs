@@ -24,6 +24,7 @@ pub const CASE: Case = Case {
          operators at the full scale.",
     ],
     scenes: &["scene.toml"],
+    literature: &["literature.csv"],
     rows: "expected.csv",
     full: "cargo run --release -- report --full --case sphere_arrays goes on to 28 cells per diameter (an hour); cargo run --release -p psmrt-reference --example array_study made study.csv (hours)",
     measure,

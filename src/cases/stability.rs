@@ -28,6 +28,7 @@ pub const CASE: Case = Case {
          that overlap and grains that share cells have their own tables in golden/stability.",
     ],
     scenes: &[],
+    literature: &[],
     rows: "bed_force.csv",
     full: "cargo run --release -- stability --out golden/stability made these rows; an hour or two, and it can be cut off",
     measure,

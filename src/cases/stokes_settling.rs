@@ -16,6 +16,7 @@ pub const CASE: Case = Case {
          tests/stokes_settling.rs shows the second order from 4 to 8.",
     ],
     scenes: &["scene.toml"],
+    literature: &["literature.csv"],
     rows: "expected.csv",
     full: "cargo run --release -- report --full --case stokes_settling takes 12 cells per diameter; an hour",
     measure,

@@ -20,6 +20,7 @@ pub const CASE: Case = Case {
          test` repeats three placements.",
     ],
     scenes: &[],
+    literature: &["far_field.csv"],
     rows: "study.csv",
     full: "cargo run --release --example suspension_study made these rows; hours, and it can be cut off",
     measure,

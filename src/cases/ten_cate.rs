@@ -17,6 +17,7 @@ pub const CASE: Case = Case {
          falls.csv); `cargo test` repeats the fastest, and golden/ten_cate/scene.toml is that fall.",
     ],
     scenes: &[],
+    literature: &["literature.csv", "curves.csv"],
     rows: "study.csv",
     full: "cargo run --release --example ten_cate_study made these rows; hours, and it can be cut off",
     measure,

@@ -38,6 +38,7 @@ pub const CASE: Case = Case {
          plates by up to 8 % (effects.csv).",
     ],
     scenes: &[],
+    literature: &["literature.csv"],
     rows: "held_back_check.csv",
     full: "cargo run --release -- tradeoff made these rows; hours, and it can be cut off",
     measure,

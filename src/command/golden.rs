@@ -2,10 +2,12 @@
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Subcommand;
 
-use super::execute::say;
+use super::execute::{interruption, say};
+use super::progress::Progress;
 use super::{CommandError, write};
 use crate::cases::{Bench, CASES, Case, Drift, Golden, drifts};
 use crate::output::atomic;
@@ -43,11 +45,15 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
         let problem = format!("no such case; there are {}", names.join(", "));
         return Err(CommandError::Usage(problem));
     }
+    let interrupted = interruption();
     let mut differing = 0;
     for case in cases {
         let golden = Golden::of(case, &request.golden);
         let path = golden.path(case.rows);
-        let mut bench = Bench::new(&request.golden, None, |_| {});
+        let interrupted = Arc::clone(&interrupted);
+        let mut bench = Bench::new(&request.golden, None, |what| eprintln!("  {what}")).watched(
+            Box::new(move |scene| Box::new(Progress::new(scene, false, Arc::clone(&interrupted)))),
+        );
         let new = bench.measure(case)?;
         let old = if path.exists() { Some(golden.table(case.rows)?) } else { None };
         match &old {
