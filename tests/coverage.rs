@@ -10,8 +10,10 @@ use common::cuts::{anywhere, assert_close, cut, images};
 use common::random::Random;
 use common::sphere_quadrature::{STEP, fraction_by_quadrature, quadrature_with_step};
 use proptest::prelude::*;
-use psmrt_reference::coverage::exact_fraction;
+use psmrt_reference::coverage::{Coverage, CoverageRule, exact_fraction};
+use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::Solid;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
 
 /// Bound on the rounding error of the exact fraction.
@@ -340,4 +342,30 @@ fn a_radius_or_position_that_is_no_number_does_not_panic() {
     }
     assert!(exact_fraction(&Vec3::new(0.0, f64::NAN, 0.0), 1.0).is_nan());
     assert_eq!(exact_fraction(&Vec3::zeros(), 0.0), 0.0);
+}
+
+#[test]
+fn coverage_of_spheres_that_have_moved_is_that_of_spheres_placed_there() {
+    let mut random = Random(31);
+    let domain = Domain::new([12, 10, 11], Faces::PERIODIC).unwrap();
+    // Three that meet in some cells, wherever they go.
+    let mut spheres: Vec<Solid> =
+        (0..3).map(|_| Solid::fixed_sphere(Vec3::repeat(6.0) + random.vector(2.0), 2.3)).collect();
+    let mut moved = Coverage::new(&domain, &spheres, CoverageRule::Exact);
+    for _ in 0..20 {
+        // The first stays: what it covers must not be lost with the others.
+        for sphere in &mut spheres[1..] {
+            sphere.centre += random.vector(1.5);
+        }
+        moved.update(&domain, &spheres, CoverageRule::Exact);
+        let placed = Coverage::new(&domain, &spheres, CoverageRule::Exact);
+        for cell in 0..domain.cell_count() {
+            let in_order = |coverage: &Coverage| {
+                let mut shares = coverage.shares(cell).to_vec();
+                shares.sort_by_key(|share| share.solid);
+                shares
+            };
+            assert_eq!(in_order(&moved), in_order(&placed), "cell {cell}");
+        }
+    }
 }

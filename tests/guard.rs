@@ -139,6 +139,20 @@ fn guard_looks_at_its_interval_and_no_broken_state_passes_it() {
 }
 
 #[test]
+fn look_at_the_callers_wish_finds_a_broken_state_between_two_looks() {
+    let setup = Setup {
+        guard: GuardSettings { interval: 1_000, ..GuardSettings::default() },
+        ..Setup::fluid(box_of([4; 3], Faces::PERIODIC), Collision::Srt { tau: 0.51 })
+    };
+    let mut solver = Solver::starting_from(setup, |_| (1.0, along_x(0.01))).unwrap();
+    solver.run(3).unwrap();
+    solver.check_now().unwrap();
+    let broken = vec![[f64::NAN; 19]; 64];
+    let mut solver = Solver::from_populations(solver.setup().clone(), broken).unwrap();
+    assert!(solver.check_now().is_err());
+}
+
+#[test]
 fn impossible_boxes_and_faces_are_refused_with_a_way_out() {
     let still = Vec3::zeros();
     let inlet = Face::VelocityInlet { velocity: along_x(0.1) };

@@ -10,7 +10,7 @@ use psmrt_reference::coverage::Coverage;
 use psmrt_reference::directions::Q;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::equilibrium::equilibrium;
-use psmrt_reference::lattice::{Populations, Vec3, momentum};
+use psmrt_reference::lattice::{Populations, Vec3, momentum, relaxation_time, viscosity};
 use psmrt_reference::partial_saturation::{CellState, SolidOperator, Weighting};
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
@@ -240,4 +240,27 @@ fn torque_on_given_cells_is_taken_about_the_solids_centre() {
     assert!(load.force.norm() > 1e-3);
     // Sums of a few products of numbers below 1.
     assert_abs_diff_eq!(load.torque, arm.cross(&load.force), epsilon = 1e-15);
+}
+
+#[test]
+fn uniform_stream_has_the_mass_flux_rho_u_in_every_cell() {
+    let domain = Domain::new([3, 4, 5], Faces::PERIODIC).unwrap();
+    let (rho, u) = (1.02, Vec3::new(0.02, -0.01, 0.03));
+    let solver = Solver::starting_from(Setup::fluid(domain, mrt(0.7)), |_| (rho, u)).unwrap();
+    let flux = solver.mass_flux_field();
+    assert_eq!(flux.len(), 60);
+    for j in flux {
+        // A collision leaves the momentum to rounding of numbers below 1.
+        assert_abs_diff_eq!(j, rho * u, epsilon = 1e-15);
+    }
+}
+
+#[test]
+fn relaxation_time_is_what_the_viscosity_came_from() {
+    // ν = (τ - 1/2)/3: by hand, water at τ = 0.8 has 0.1.
+    assert_abs_diff_eq!(viscosity(0.8), 0.1, epsilon = 1e-16);
+    assert_abs_diff_eq!(relaxation_time(0.1), 0.8, epsilon = 1e-15);
+    for tau in [0.5001, 0.55, 1.0, 3.0] {
+        assert_abs_diff_eq!(relaxation_time(viscosity(tau)), tau, epsilon = 1e-15);
+    }
 }
