@@ -4,9 +4,8 @@
 //! with the scene's models. Sizes and rates are constants of the shader.
 
 use psmrt_reference::collision::Collision;
-use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::Face;
-use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
+use psmrt_reference::partial_saturation::SolidOperator;
 use psmrt_reference::setup::Setup;
 
 use super::layout::{Layout, Store};
@@ -60,27 +59,6 @@ pub(super) enum Work {
     Observe,
     /// Sums over the box.
     Summary,
-}
-
-/// The stages of finding what solids cover.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stage {
-    /// Which cells each touches, and how much of them.
-    Touch,
-    /// What each cell is made of.
-    Resolve,
-    /// How many cells are listed.
-    Drive,
-}
-
-/// What a shader that finds what solids cover is made from.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Covering {
-    pub(super) stage: Stage,
-    /// Whether the step of all cells has the solids in it.
-    pub(super) in_every_cell: bool,
-    /// Workgroups to each solid.
-    pub(super) parts: u32,
 }
 
 impl Work {
@@ -172,53 +150,8 @@ impl Recipe<'_> {
         head + &tables.concat() + &files.concat()
     }
 
-    /// The shaders that find what the solids cover; see `movable.rs`.
-    pub(super) fn covering(&self, work: Covering) -> String {
-        let phase = self.setup.solid_phase.as_ref();
-        let mut flags = Vec::new();
-        let samples = match phase.map(|phase| phase.coverage) {
-            Some(CoverageRule::Sampled { n }) => {
-                flags.push("SAMPLED");
-                n
-            }
-            _ => 1,
-        };
-        if phase.is_some_and(|phase| phase.weighting == Weighting::NobleTorczynski) {
-            flags.push("NOBLE");
-        }
-        if !work.in_every_cell {
-            flags.push("LISTED");
-        }
-        let mut text = self.constants();
-        let whole =
-            [("SOLIDS", self.solid_count()), ("PARTS", work.parts), ("SAMPLES", count(samples))];
-        for (name, value) in whole {
-            text += &format!("const {name} = {value}u;\n");
-        }
-        text += &format!("const EXCESS = {};\n", literal(self.setup.collision.tau() - 0.5));
-        for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
-            text += &format!("const PERIODIC_{name} = {};\n", self.setup.domain.is_periodic(axis));
-        }
-        let store = self.layout.store;
-        text += include_str!("wgsl/solid.wgsl");
-        match work.stage {
-            Stage::Touch => {
-                text += &table::writer(store, 12, "shares");
-                text += include_str!("wgsl/coordinates.wgsl");
-                text += include_str!("wgsl/fraction.wgsl");
-                text += &selected(include_str!("wgsl/cover.wgsl"), &flags);
-            }
-            Stage::Resolve => {
-                text += &table::reader(store, 12, "shares");
-                text += &table::writer(store, 13, "records");
-                text += &selected(include_str!("wgsl/resolve.wgsl"), &flags);
-            }
-            Stage::Drive => text += include_str!("wgsl/drive.wgsl"),
-        }
-        text
-    }
-
-    fn solid_count(&self) -> u32 {
+    /// Number of solids.
+    pub(super) fn solid_count(&self) -> u32 {
         self.setup.solid_phase.as_ref().map_or(0, |phase| count(phase.solids.len()))
     }
 
@@ -268,7 +201,8 @@ impl Recipe<'_> {
         flags
     }
 
-    fn constants(&self) -> String {
+    /// Sizes and rates.
+    pub(super) fn constants(&self) -> String {
         let [nx, ny, nz] = self.layout.cells;
         let [along, across] = self.workgroup();
         let [step_y, step_z] = self.layout.steps();
@@ -341,7 +275,7 @@ impl Recipe<'_> {
 }
 
 /// The lines of `file` that stand with these flags.
-fn selected(file: &str, flags: &[&str]) -> String {
+pub(super) fn selected(file: &str, flags: &[&str]) -> String {
     let mut text = String::new();
     // Whether the lines of each open condition stand.
     let mut open: Vec<bool> = Vec::new();

@@ -8,7 +8,7 @@
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `solids.rs`, `touches.rs` | the solids on the device |
-//! | `movable.rs`, `wgsl/{cover,fraction,resolve}.wgsl` | what movable solids cover, found on the device |
+//! | `movable.rs`, `covering.rs`, `wgsl/{cover,fraction,resolve}.wgsl` | what movable solids cover, found on the device |
 //! | `coverage.rs`, `sphere.rs` | the same in double precision, where none can move and for what is seen |
 //! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
 //! | `fluid.rs`, `steps.rs`, `sight.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
@@ -24,6 +24,7 @@
 mod buffers;
 mod compose;
 mod coverage;
+mod covering;
 mod device;
 mod error;
 mod field;

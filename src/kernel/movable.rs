@@ -12,7 +12,8 @@ use psmrt_reference::solids::{Shape, Solid};
 use wgpu::{BindingResource, BufferUsages};
 
 use super::buffers::Growing;
-use super::compose::{Covering, Recipe, Stage};
+use super::compose::Recipe;
+use super::covering::{Covering, Stage};
 use super::device::Gpu;
 use super::error::KernelError;
 use super::numbers::{count, single};
