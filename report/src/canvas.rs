@@ -111,6 +111,10 @@ impl Canvas<'_> {
         self.area.draw(&Circle::new(at(centre), units(r), colour.filled())).map_err(drawing)
     }
 
+    pub(crate) fn circle(&self, centre: Point, r: f64, pen: Pen) -> Result<(), PlotError> {
+        self.area.draw(&Circle::new(at(centre), units(r), pen.style())).map_err(drawing)
+    }
+
     /// Draws one line of text, centred vertically on the point.
     pub(crate) fn text(&self, text: &str, point: Point, font: Font) -> Result<(), PlotError> {
         let style = if font.bold { FontStyle::Bold } else { FontStyle::Normal };

@@ -34,6 +34,7 @@ pub(crate) fn point(canvas: &Canvas, centre: Point, look: &Look) -> Result<(), P
             }
             Ok(())
         }
+        Marker::Halo => canvas.circle(centre, MARKER + 3.0, Pen::solid(look.colour, 1.4)),
         _ => {
             let corners = |r: f64| -> Vec<Point> {
                 let outline = outline(marker).iter();

@@ -19,6 +19,8 @@ pub enum Marker {
     Ring,
     /// An x.
     Cross,
+    /// A wide open circle round another marker, which stays in sight.
+    Halo,
 }
 
 /// How a series is drawn. Colour, dashes and, where no marker is named, the marker follow from

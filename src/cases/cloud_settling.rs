@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use psmrt_report::{Axis, Figure, Series};
 
+use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden, Table};
 
 /// A settling cloud.
@@ -136,7 +137,7 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         let velocities = rows.with(&[("engine", &engine)])?.numbers("velocity_m_s")?;
         // The middle of each layer; the core reaches to 4.5 diameters.
         let points = [0.5, 1.5, 2.5, 3.75].into_iter().zip(velocities).collect();
-        figure = figure.with(Series::line_points(format!("122 grains, {engine}"), points));
+        figure = figure.with(found("122 grains", &engine, points, None));
     }
     let full = golden.table("full.csv")?.points("layer_from_diameters", "velocity_m_s")?;
     let full = full.into_iter().map(|(from, velocity)| (from + 0.5, velocity)).collect();

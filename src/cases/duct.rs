@@ -1,8 +1,9 @@
 //! Flow in a square duct, against its series.
 
-use psmrt_report::{Axis, Figure, PowerLaw, Series};
+use psmrt_report::{Axis, Figure, PowerLaw};
 
 use super::bench::collision_changes;
+use super::found::found;
 use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table};
 
 /// Flow in a square duct.
@@ -118,7 +119,7 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
                 let label = format!("{name}, {engine}: fit of order {:.2}", -fit.order);
                 figure = figure.with(fit.series(label, (8.0, 16.0)).with_colour(colour));
             }
-            figure = figure.with(Series::points(format!("{name}, {engine}"), errors));
+            figure = figure.with(found(name, &engine, errors, Some(colour)));
         }
     }
     Ok(vec![figure])

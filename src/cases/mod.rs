@@ -12,6 +12,7 @@ mod conformance;
 mod cost;
 mod drift;
 mod duct;
+mod found;
 mod kernel_parity;
 mod kernel_speed;
 mod packed_bed;

@@ -1,9 +1,10 @@
 //! The figures of Poiseuille flow.
 
-use psmrt_report::{Axis, Figure, Marker, Series, Style};
+use psmrt_report::{Axis, Figure, Series};
 
+use super::found::found;
 use super::poiseuille::{CELLS, WALLS, by_grid, by_tau};
-use super::{CaseError, EngineName, Table};
+use super::{CaseError, Table};
 
 /// All of them; `walls` says where walls are known to stand.
 pub fn all(walls: &Table, rows: &Table) -> Result<Vec<Figure>, CaseError> {
@@ -56,17 +57,8 @@ fn profile_figure(walls: &Table, rows: &Table) -> Result<Figure, CaseError> {
             let points = (1..=8).map(|i| Ok((f64::from(i) - 0.5, own.number(&format!("u{i}"))?)));
             let points = points.collect::<Result<Vec<_>, CaseError>>()?;
             let off = points.iter().map(|&(y, u)| (y, 100.0 * (u - parabola(y)))).collect();
-            // The kernel's points lie on the oracle's: a cross upon each.
-            let (label, marker, colour) = if engine == EngineName::Reference.word() {
-                (format!("{}, {engine}", word(rates)), None, colour)
-            } else {
-                (format!("{engine}, each"), Some(Marker::Cross), 6)
-            };
-            let one = |points| {
-                Series::new(label.clone(), Style::Points(marker), points).with_colour(colour)
-            };
-            figure = figure.with(one(points));
-            errors.push(one(off));
+            figure = figure.with(found(word(rates), &engine, points, Some(colour)));
+            errors.push(found(word(rates), &engine, off, Some(colour)));
         }
     }
     figure = figure.with_panel(Axis::linear("less the exact one (%)").range(-2.0, 8.0));
@@ -85,7 +77,7 @@ fn error_figure(rows: &Table) -> Result<Figure, CaseError> {
     for engine in rows.values("engine")? {
         for (rates, name) in [("magic", "magic"), ("mrt", "d'Humieres")] {
             let points = by_grid(rows, &engine, rates)?.points("cells_across", "relative_l2")?;
-            figure = figure.with(Series::points(format!("{name}, {engine}"), points));
+            figure = figure.with(found(name, &engine, points, None));
         }
     }
     let slip = by_grid(rows, &rows.rows[0][0], "mrt")?;
@@ -106,10 +98,9 @@ fn wall_figure(walls: &Table, rows: &Table) -> Result<Figure, CaseError> {
         let line = Series::line(format!("{}, known", word(rates)), known);
         figure = figure.with(line.with_colour(colour));
         for engine in rows.values("engine")? {
-            let found = by_tau(rows, &engine, (rates, name), walls)?;
-            let points = found.into_iter().map(|(tau, found, _)| (tau, found)).collect();
-            let points = Series::points(format!("{}, {engine}", word(rates)), points);
-            figure = figure.with(points.with_colour(colour));
+            let walls = by_tau(rows, &engine, (rates, name), walls)?;
+            let points = walls.into_iter().map(|(tau, found, _)| (tau, found)).collect();
+            figure = figure.with(found(word(rates), &engine, points, Some(colour)));
         }
     }
     Ok(figure)

@@ -2,6 +2,7 @@
 
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
+use super::found::found;
 use super::seepage::over_law;
 use super::seepage_study::{grids, largest_stable, steady, taus};
 use super::{BED_LAWS, CaseError, Table, seepage_inlet};
@@ -42,11 +43,8 @@ fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
             if i < 2 { Series::dashed(one.name, points) } else { Series::line(one.name, points) };
         figure = figure.with(series.with_colour(i));
     }
-    let found = points(rows, study)?;
-    for (i, (label, points)) in found.iter().enumerate() {
-        let points = points.iter().map(|&(re, psi, _)| (re, psi)).collect();
-        figure = figure.with(Series::points(label.clone(), points).with_colour(BED_LAWS.len() + i));
-    }
+    let beds = beds(rows, study)?;
+    figure = beds.iter().map(|(psi, _)| psi.clone()).fold(figure, Figure::with);
     figure = figure.with_panel(
         Axis::linear("psi over Beetstra et al.").range(0.6, 1.4).ticks(&[0.6, 0.8, 1.0, 1.2, 1.4]),
     );
@@ -58,50 +56,53 @@ fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
             if i < 2 { Series::dashed(one.name, points) } else { Series::line(one.name, points) };
         figure = figure.with(series.with_colour(i));
     }
-    for (i, (label, points)) in found.into_iter().enumerate() {
-        let points = points.into_iter().map(|(re, _, ratio)| (re, ratio)).collect();
-        figure = figure.with(Series::points(label, points).with_colour(BED_LAWS.len() + i));
+    for (psi, ratio) in beds {
+        figure = figure.with(Series { points: ratio, ..psi });
     }
     Ok(figure.note(
         "tau = 0.51; laws at a porosity of 0.4, points over the law at their own; real beds scatter by 10 to 15 %",
     ))
 }
 
-/// A label with Re, psi, and psi over the law of Beetstra et al.
-type Found = (String, Vec<(f64, f64, f64)>);
+/// psi of a kind of bed against Re, and it over the law of Beetstra et al.
+type BedSeries = (Series, Vec<(f64, f64)>);
 
-fn points(rows: &Table, study: &Table) -> Result<Vec<Found>, CaseError> {
+fn beds(rows: &Table, study: &Table) -> Result<Vec<BedSeries>, CaseError> {
     let mut all = Vec::new();
     for engine in rows.values("engine")? {
         let wanted = [("engine", engine.as_str()), ("packing", "random 2"), ("collision", "mrt")];
-        all.push((format!("9 spheres, 8 cells, {engine}"), rows.with(&wanted)?));
+        let series = found("9 spheres, 8 cells", &engine, Vec::new(), Some(BED_LAWS.len()));
+        all.push((series, rows.with(&wanted)?));
     }
     let mrt = steady(study, "mrt")?.with(&[("tau", "0.51")])?;
-    // Seven kinds in all, as many as there are markers.
-    for (kinds, label) in [
+    let next = BED_LAWS.len() + 1;
+    for (i, (kinds, label)) in [
         (&[("random 3", "8.0000")] as &[_], "31 spheres, 8 cells"),
         (&[("random 3", "12.0000")], "31 spheres, 12 cells"),
         (&[("random 3", "16.0000"), ("random 3", "24.0000")], "31 spheres, 16 and 24 cells"),
         (&[("random 4", "8.0000"), ("random 5", "8.0000")], "73 and 143 spheres, 8 cells"),
-    ] {
+    ]
+    .into_iter()
+    .enumerate()
+    {
         let mut own = Table::default();
         for (packing, cells) in kinds {
             own.append(mrt.with(&[("packing", *packing), ("cells_per_diameter", *cells)])?);
         }
-        all.push((label.to_owned(), own));
+        all.push((Series::points(label, Vec::new()).with_colour(next + i), own));
     }
     let srt = steady(study, "srt")?.with(&[("tau", "0.51"), ("packing", "random 3")])?;
-    all.push(("31 spheres, 8 cells, SRT".to_owned(), srt));
-    let mut found = Vec::new();
-    for (label, table) in all {
-        let ratios = over_law(&table)?;
-        let both = table.points("Re", "psi")?.into_iter().zip(ratios);
-        let points: Vec<_> = both.map(|((re, psi), ratio)| (re, psi, ratio)).collect();
+    let series = Series::points("31 spheres, 8 cells, SRT", Vec::new()).with_colour(next + 4);
+    all.push((series, srt));
+    let mut beds = Vec::new();
+    for (series, table) in all {
+        let points = table.points("Re", "psi")?;
+        let ratio: Vec<_> = points.iter().map(|p| p.0).zip(over_law(&table)?).collect();
         if !points.is_empty() {
-            found.push((label, points));
+            beds.push((Series { points, ..series }, ratio));
         }
     }
-    Ok(found)
+    Ok(beds)
 }
 
 /// The ordered bed and nine spheres on several grids.

@@ -7,6 +7,7 @@ use psmrt_reference::solids::Shape;
 use psmrt_report::{Axis, Figure, PowerLaw, Series};
 
 use super::bench::Finished;
+use super::found::found;
 use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table};
 
 /// Regular arrays of spheres.
@@ -141,13 +142,13 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         figure = figure.with(Series::line(format!("{lattice}, exact"), exact).with_colour(colour));
     }
     for engine in rows.values("engine")? {
-        let found = rows.with(&[("engine", &engine)])?.points("solid_fraction", "K")?;
-        figure = figure.with(Series::points(engine, found));
+        let drags = rows.with(&[("engine", &engine)])?.points("solid_fraction", "K")?;
+        figure = figure.with(found("", &engine, drags, None));
     }
     figure = figure.with_panel(Axis::linear("K/K exact - 1"));
     for engine in rows.values("engine")? {
-        let found = rows.with(&[("engine", &engine)])?.points("solid_fraction", "error")?;
-        figure = figure.with(Series::points(engine, found));
+        let errors = rows.with(&[("engine", &engine)])?.points("solid_fraction", "error")?;
+        figure = figure.with(found("", &engine, errors, None));
     }
     let mut convergence = Figure::new(
         "Simple cubic array, solid fraction 0.343: error against resolution",
@@ -162,7 +163,7 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         let ends = (errors[0].0, errors[errors.len() - 1].0);
         let label = format!("{engine}: fit of order {}", fit.order_words());
         convergence =
-            convergence.with(Series::points(engine, errors)).with(fit.series(label, ends));
+            convergence.with(found("", &engine, errors, None)).with(fit.series(label, ends));
     }
     Ok(vec![figure.note("7 to 14 cells per diameter, tau = 0.6"), convergence])
 }

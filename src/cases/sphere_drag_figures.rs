@@ -2,6 +2,7 @@
 
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
+use super::found::found;
 use super::sphere_drag::Known;
 use super::sphere_drag_study::{self, Blockage, VARIED, Varied};
 use super::{CaseError, Table};
@@ -22,16 +23,16 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
     let law = |column: &str| Ok::<Vec<_>, CaseError>(reaches(known.open.points("Re", column)?));
     let (open, white) = (law("CD_computed")?, law("CD_White")?);
     let schiller = law("CD_Schiller_Naumann")?;
-    let mut found = Vec::new();
+    let mut all = Vec::new();
     for engine in rows.values("engine")? {
         let own = rows.with(&[("engine", &engine), ("collision", "mrt")])?;
         let own = own.with(&[("cells_per_diameter", "6")])?;
-        found.push((format!("{engine}, 6 cells"), own.points("Re", "CD")?));
+        all.push(found("6 cells", &engine, own.points("Re", "CD")?, None));
     }
     let srt = study.with(&[("outcome", "steady"), ("collision", "srt"), ("width_d", "5")])?;
     let main = sphere_drag_study::main_taus(&srt)?;
-    found.push((
-        "study, SRT, 6 cells".to_owned(),
+    all.push(Series::points(
+        "study, SRT, 6 cells",
         main.with(&[("cells_per_diameter", "6")])?.points("Re", "CD")?,
     ));
     let mrt = sphere_drag_study::main_taus(&sphere_drag_study::steady(study)?)?;
@@ -39,7 +40,7 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
     for cells in ["6", "8", "12", "16"] {
         let own = mrt.with(&[("cells_per_diameter", cells)])?;
         if !own.rows.is_empty() {
-            found.push((format!("study, {cells} cells"), own.points("Re", "CD")?));
+            all.push(Series::points(format!("study, {cells} cells"), own.points("Re", "CD")?));
         }
     }
     let ratio = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
@@ -54,9 +55,7 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
     .with(Series::line("open water, computed", open.clone()))
     .with(Series::dashed("White", white.clone()))
     .with(Series::dashed("Schiller-Naumann", schiller.clone()));
-    for (label, points) in &found {
-        figure = figure.with(Series::points(label.clone(), points.clone()));
-    }
+    figure = all.iter().cloned().fold(figure, Figure::with);
     figure = figure.with_panel(
         Axis::linear("C_D over open water")
             .range(0.85, 1.5)
@@ -66,8 +65,8 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
         .with(Series::line("open water, computed", ratio(&open)))
         .with(Series::dashed("White", ratio(&white)))
         .with(Series::dashed("Schiller-Naumann", ratio(&schiller)));
-    for (label, points) in &found {
-        figure = figure.with(Series::points(label.clone(), ratio(points)));
+    for series in all {
+        figure = figure.with(Series { points: ratio(&series.points), ..series });
     }
     let mut boxed = Vec::new();
     for varied in VARIED {

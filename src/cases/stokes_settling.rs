@@ -2,6 +2,7 @@
 
 use psmrt_report::{Axis, Figure, Series};
 
+use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden, Table};
 
 /// Slow settling.
@@ -98,7 +99,7 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let course =
         |engine: &str| rows.with(&[("engine", engine)])?.points("time_s", "velocity_over_exact");
     for engine in &engines {
-        figure = figure.with(Series::line_points(engine.clone(), course(engine)?));
+        figure = figure.with(found("", engine, course(engine)?, None));
     }
     let exact = vec![(0.0, 1.0), (0.006, 1.0)];
     figure = figure
@@ -108,7 +109,7 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         // Once it has started.
         let late = course(&engine)?.into_iter().filter(|(_, velocity)| *velocity > 0.9);
         let residual = late.map(|(time, velocity)| (time, velocity - 1.0)).collect();
-        figure = figure.with(Series::line_points(engine, residual));
+        figure = figure.with(found("", &engine, residual, None));
     }
     Ok(vec![figure])
 }

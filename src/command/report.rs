@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io::Write;
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -251,18 +252,34 @@ fn verdict(claim: &Claim) -> Verdict {
     Verdict {
         claim: claim.what.clone(),
         measured: short(claim.measured),
-        allowed: format!("{} to {}", short(*claim.allowed.start()), short(*claim.allowed.end())),
+        allowed: allowed(&claim.allowed),
         why: claim.why.to_owned(),
         holds: claim.holds(),
     }
 }
 
+/// A range as a reader says it: both ends, or the one that there is.
+fn allowed(range: &RangeInclusive<f64>) -> String {
+    let (low, high) = (*range.start(), *range.end());
+    if low == high {
+        format!("exactly {}", short(low))
+    } else if high == f64::INFINITY {
+        format!("at least {}", short(low))
+    } else {
+        format!("{} to {}", short(low), short(high))
+    }
+}
+
 /// A number in a few characters.
 fn short(value: f64) -> String {
-    if value == 0.0 || (0.001..1e4).contains(&value.abs()) {
-        format!("{value:.4}")
+    if value.is_finite() && value != 0.0 && !(0.001..1e4).contains(&value.abs()) {
+        return format!("{value:.1e}");
+    }
+    let text = format!("{value:.4}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
-        format!("{value:.1e}")
+        text
     }
 }
 
