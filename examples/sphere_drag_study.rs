@@ -82,7 +82,7 @@ fn oracle_runs() -> Vec<Stream> {
     // How much the relaxation time matters.
     for tau in [1.5, 1.0, 0.8, 0.7, 0.6, 0.55] {
         for collision in ["mrt", "srt"] {
-            runs.push(Stream { tau, collision, cells: 4, ..PAPER });
+            runs.push(Stream { tau, collision, cells: 4, tolerance: 3e-6, ..PAPER });
         }
     }
     runs

@@ -6,7 +6,7 @@ use approx::assert_abs_diff_eq;
 use common::random::{Random, largest_difference};
 use psmrt_reference::cell_collision::CellCollision;
 use psmrt_reference::collision::{Collision, CollisionOperator};
-use psmrt_reference::coverage::Coverage;
+use psmrt_reference::coverage::{Coverage, CoverageRule};
 use psmrt_reference::directions::Q;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::equilibrium::equilibrium;
@@ -263,4 +263,13 @@ fn relaxation_time_is_what_the_viscosity_came_from() {
     for tau in [0.5001, 0.55, 1.0, 3.0] {
         assert_abs_diff_eq!(relaxation_time(viscosity(tau)), tau, epsilon = 1e-15);
     }
+}
+
+#[test]
+fn a_cell_given_no_solid_costs_no_share() {
+    let domain = Domain::new([2, 1, 1], Faces::PERIODIC).unwrap();
+    let solid = Solid::fixed_cells(vec![(0, 0.0), (1, 0.25)]);
+    let coverage = Coverage::new(&domain, &[solid], CoverageRule::Exact);
+    assert!(coverage.shares(0).is_empty());
+    assert_eq!(coverage.shares(1).len(), 1);
 }

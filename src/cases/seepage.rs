@@ -2,7 +2,7 @@
 
 use psmrt_report::Figure;
 
-use super::packed_bed::{FCC_FRACTION, POROSITY_OF_SMALL};
+use super::packed_bed::FCC_FRACTION;
 use super::{
     BED_LAWS, Bed, Bench, Case, CaseError, Claim, Golden, Packing, Table, seepage_figures,
     seepage_inlet, seepage_study,
@@ -21,20 +21,25 @@ pub const CASE: Case = Case {
          density, solid cells included.",
         "Lines: the paper's Blake-Kozeny (150/Re) and Ergun (150/Re + 1.75), and, since particle-resolved \
          computations agree on 180 rather than 150 at low Re, Carman-Kozeny with 180 and the laws of Beetstra \
-         et al. (2007) and Tang et al. (2015). Real beds scatter about any of them by 10 to 15 %. The one exact \
+         et al. (2007) and Tang et al. (2015), of which the second lies 17 % above the first at Re = 10. Real beds scatter about any of them by 10 to 15 %. The one exact \
          value is that of the ordered bed (face-centred cubic at the same porosity of 0.4).",
         "What the paper leaves open is chosen so: tau = 0.51, since the spheres of partially saturated cells leak, \
-         the more the larger tau; 8 cells per diameter in the quick rows (9 spheres), 8 to 16 in the study (study.csv, \
+         the more the larger tau; 8 cells per diameter in the quick rows (9 spheres), 8 to 24 in the study (study.csv, \
          31 spheres), 16 in the paper; Noble and Torczynski's weight, exact solid fractions, \
          MRT with d'Humieres' rates unless SRT is named. Steady: U changes by less than 3e-4 of itself (study: 1e-4) \
          in three rows in a row, a row being a fifth of the time d2/(4 pi2 nu). The force, not tau, sets Re.",
+        "8 cells are few. In the ordered bed psi errs by -16 % there at tau = 0.51 and -35 % at 0.55, and at 0.505 it is too \
+         large by up to 11 %: water that leaks through the spheres lowers psi, throats a cell wide raise it, and at one \
+         tau the two cancel. The limit for fine grids is the same for each tau, which is claimed.",
         "At Re = 100 coarse grids give too little: over Beetstra's law 0.82 at 8 cells per diameter, 0.95 at 12, 1.02 at \
-         16 and 1.04 at 24, where at Re = 1 one finds 1.00 on each. It is the grid, which at 8 cells has one cell for a boundary layer, \
+         16 and 1.04 at 24, where at Re = 1 one finds 1.00 at 8, 12 and 16. It is the grid, which at 8 cells has one cell for a boundary layer, \
          d/sqrt(U d/nu). It is not the size of the bed: with 8 cells 73 and 143 spheres have 0.82 and 0.74, five beds \
          of 31 0.71 to 0.82. It is not the velocity of 0.23 cells per step at its peak: with half of it (tau = 0.505) \
-         psi at Re = 100 over psi at Re = 1 gains 2 % at 8 cells and 3 % at 12. And it is not the law: Tang's and Ergun's are within 5 % of it.",
+         psi over the law at Re = 100, over the same at Re = 1, gains 2 % at 8 cells and at 12. And it is not the law: Tang's and Ergun's \
+         are within 4 % of it there.",
         "How fast a flow stays stable (stability.csv): the force is doubled until the guard stops the run. The \
-         paper says Re = 2 for SRT and 30 for MRT and gives neither tau nor its weight. The last figure shows the \
+         paper says Re = 2 for SRT and 30 for MRT and gives neither tau nor its weight; the case stability finds with \
+         which of them that is so. The last figure shows the \
          limits found, and what a velocity inlet adds to them (inlet.csv): through the paper's bed, 218 cells long, it \
          needs a pressure that at large tau doubles the density of the fluid. 18 spheres at 8 cells per diameter \
          (inlet.toml) need as much, with either collision.",
@@ -85,9 +90,13 @@ pub(super) fn ordered(golden: &Golden) -> Result<f64, CaseError> {
 
 /// psi Re of each row over the law of Beetstra et al. at its Re and porosity.
 pub(super) fn over_law(rows: &Table) -> Result<Vec<f64>, CaseError> {
+    over(BED_LAWS[3].psi_re, rows)
+}
+
+/// psi Re of each row over a law at its Re and porosity.
+pub(super) fn over(law: fn(f64, f64) -> f64, rows: &Table) -> Result<Vec<f64>, CaseError> {
     let [re, psi_re, porosity] =
         [rows.numbers("Re")?, rows.numbers("psi_Re")?, rows.numbers("porosity")?];
-    let law = BED_LAWS[3].psi_re;
     Ok((0..re.len()).map(|i| psi_re[i] / law(1.0 - porosity[i], re[i])).collect())
 }
 
@@ -103,8 +112,9 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
                 what: format!("{engine}: 9 spheres, Re about {reynolds}: psi over Beetstra et al."),
                 measured: ratio,
                 allowed: 0.8..=1.2,
-                why: "beds scatter about any law by 10 to 15 %, one of nine spheres no less; particle-resolved laws differ by \
-                      15 % at Re = 30; at 8 cells and tau = 0.51 the grid is worth another 5 %",
+                why: "beds scatter about any law by 10 to 15 %, one of nine spheres no less; Tang's law is 5, 17 and 16 % above \
+                      Beetstra's at these Re; 8 cells at tau = 0.51 are worth 1 % at Re = 1, where leaking and narrowed \
+                      throats cancel, and 8 % at Re = 30 (study.csv)",
             });
         }
         // At the full scale only.
@@ -116,8 +126,8 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
                 ),
                 measured: ratio,
                 allowed: 0.9..=1.1,
-                why: "one bed, of a kind that scatters by 6 % (study.csv); Tang's law is 4 % away at Re = 1 and 100; the \
-                      grid is worth 5 %",
+                why: "one bed, of a kind that scatters by 6 % (study.csv); from 12 to 16 cells psi rises by 0.1, 0.5, 2 and \
+                      7 % at Re = 1, 10, 30 and 100. Tang's law is 5, 17, 16 and 2 % above Beetstra's",
             });
         }
         let slow = |collision: &str| {
@@ -136,14 +146,6 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             allowed: 0.9..=1.1,
             why: "exact to eight digits (golden/sphere_arrays); leaking takes 2.25 nu K/a2 = 3 % off at this \
                   tau, throats of 2 cells add about as much as that to either side; study.csv shows the limit",
-        });
-        claims.push(Claim {
-            what: format!(
-                "{engine}: porosity of the nine spheres over that of their volumes in the box"
-            ),
-            measured: mrt.numbers("porosity")?.into_iter().fold(0.0, f64::max) / POROSITY_OF_SMALL,
-            allowed: 1.0 - 1e-4..=1.0 + 1e-4,
-            why: "nine times pi/6 in a cube of two diameters; five digits are kept",
         });
     }
     let (study, stability) = (golden.table("study.csv")?, golden.table("stability.csv")?);

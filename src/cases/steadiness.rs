@@ -15,7 +15,8 @@ pub struct Settled {
     /// Relative change over the last window, from one row to the next.
     pub change: f64,
     /// What is still to go, relative: if successive changes go on falling at their last ratio, their sum.
-    /// The change itself where they do not fall, as where all that is left is rounding.
+    /// Infinite where they go one way and do not fall; where they go to and fro, how far the last rows lie
+    /// from the last one.
     pub left: f64,
 }
 
@@ -38,13 +39,25 @@ impl Settled {
     }
 }
 
+/// As many of the last values tell a flow that creeps from one that swings, or from rounding: chance gives
+/// four changes of one sign once in eight times.
+const WINDOW: usize = 5;
+
 /// Change over the last window, and what is still to go; `None` of fewer than three values.
 fn drift(values: &[f64]) -> Option<(f64, f64)> {
     let &[.., before, last, now] = values else { return None };
     let change = ((now - last) / now).abs();
     let ratio = (now - last) / (last - before);
-    // c (r + r² + ...) = c r/(1 - r)
-    let left = if ratio > 0.0 && ratio < 1.0 { change * ratio / (1.0 - ratio) } else { change };
+    let window = &values[values.len().saturating_sub(WINDOW)..];
+    let one_way = window.windows(2).all(|pair| (pair[1] - pair[0]) * (now - last) > 0.0);
+    let left = if ratio > 0.0 && ratio < 1.0 {
+        // c (r + r² + ...) = c r/(1 - r)
+        change * ratio / (1.0 - ratio)
+    } else if one_way {
+        f64::INFINITY
+    } else {
+        window.iter().map(|value| ((now - value) / now).abs()).fold(0.0, f64::max)
+    };
     Some((change, left))
 }
 
@@ -72,8 +85,21 @@ pub fn steadiness(engine: &str, runs: &[Settled]) -> Option<Claim> {
         measured: worst,
         allowed: 0.0..=10.0,
         why: "three rows in a row have changed by less than the tolerance, or there is no result; a flow \
-              that creeps could pass that with far to go, so the ratio of its last changes is looked at. \
-              Ten times the tolerance is below what each case allows for other reasons",
+              that creeps could pass that with far to go, so the ratio of its last changes is looked at, and \
+              changes that do not fall have no end. Ten times the tolerance is below what each case allows \
+              for other reasons",
+    })
+}
+
+/// That the steady rows of a study had little left to go.
+pub(super) fn of_study(study: &Table) -> Result<Claim, CaseError> {
+    let left = study.with(&[("outcome", "steady")])?.numbers("left")?;
+    Ok(Claim {
+        what: "study: steady rows: what was still to go, relative, at most".to_owned(),
+        measured: left.into_iter().reduce(f64::max).unwrap_or(f64::NAN),
+        allowed: 0.0..=1e-3,
+        why: "ten times what its criterion lets the value change from row to row at most; a tenth of what any claim about \
+              the study allows",
     })
 }
 
@@ -101,6 +127,25 @@ mod tests {
             // Relative to the last value instead of the limit, 1: another 1 % at most.
             assert!((run.left / left - 1.0).abs() < 0.02, "{ratio}: {} {left}", run.left);
         }
+    }
+
+    #[test]
+    fn a_flow_that_creeps_on_without_slowing_down_has_no_end() {
+        for growth in [1.0_f64, 1.1] {
+            let mut values = vec![1.0];
+            for i in 0..6 {
+                values.push(values[i] + 1e-5 * growth.powi(i32::try_from(i).unwrap()));
+            }
+            assert_eq!(drift(&values).unwrap().1, f64::INFINITY, "{growth}");
+        }
+    }
+
+    #[test]
+    fn a_value_that_swings_is_as_unsteady_as_its_last_rows_lie_apart() {
+        // To and fro, and the last two changes go one way and grow.
+        let values = [1.0, 1.001, 0.998, 0.999, 1.0005];
+        let (_, left) = drift(&values).unwrap();
+        assert!((left - 0.0025 / 1.0005).abs() < 1e-12, "{left}");
     }
 
     #[test]

@@ -30,8 +30,17 @@ const K_EXACT: f64 = 88.873_361_81;
 const SPEEDS: &[f64] =
     &[1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 5e-3, 0.01, 0.015, 0.02, 0.03, 0.05, 0.07, 0.1, 0.14, 0.2];
 
+/// The same at an inlet, where the limits of SRT are lower.
+const INLET_SPEEDS: &[f64] = &[
+    1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 5e-3, 0.01, 0.015, 0.02, 0.03, 0.05, 0.07, 0.1,
+    0.14, 0.2,
+];
+
 /// Relaxation times of the maps of beds.
 const TAUS: [f64; 9] = [0.500_01, 0.500_1, 0.501, 0.51, 0.55, 0.6, 0.8, 1.0, 2.0];
+
+/// The same at an inlet: dense where MRT leaves SRT behind.
+const INLET_TAUS: [f64; 7] = [0.500_1, 0.500_2, 0.500_5, 0.501, 0.51, 0.6, 1.0];
 
 /// How far the drag may be off: beds of real grains scatter by 10 to 15 % about the laws for them, and
 /// an error of the method that is larger than that of the law is of no use. Added is what 13 cells per
@@ -72,21 +81,21 @@ pub(super) const BY_INLET: Flow = Flow {
         "the difference of pressure over the bed is within 20 % of that of the exact drag. error: of that difference.",
     ],
     knob: "superficial velocity at the inlet",
-    values: SPEEDS,
+    values: INLET_SPEEDS,
     search: Search::Frontiers,
     also: creeping,
     lines: |engine| {
         let mut all = Vec::new();
-        for variant in ["free", "pressure"] {
-            let slow = lines(engine).into_iter().filter(|line| line.model != Model::Magic);
-            all.extend(slow.map(|line| Line { variant, ..line }));
+        for (variant, weighting) in [
+            ("free", Weighting::NobleTorczynski),
+            ("free", Weighting::SolidFraction),
+            ("pressure", Weighting::NobleTorczynski),
+        ] {
+            for model in [Model::Srt, Model::DHumieres] {
+                let weighting = Some(weighting);
+                all.extend(INLET_TAUS.map(|tau| Line { engine, model, weighting, variant, tau }));
+            }
         }
-        // A part of the lines of the bed by a force: these runs are long.
-        all.retain(|line| {
-            let is_thin =
-                line.variant == "free" || line.weighting != Some(Weighting::SolidFraction);
-            is_thin && [0.501, 0.51, 0.6, 1.0].contains(&line.tau)
-        });
         all
     },
     run: by_inlet,
