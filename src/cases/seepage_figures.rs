@@ -59,6 +59,10 @@ fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
     for (psi, ratio) in beds {
         figure = figure.with(Series { points: ratio, ..psi });
     }
+    for edge in [0.9, 1.1] {
+        let ends = vec![(0.1, edge), (200.0, edge)];
+        figure = figure.with(Series::new("scatter of real beds", Style::Reference, ends));
+    }
     Ok(figure.note(
         "tau = 0.51; laws at a porosity of 0.4, points over the law at their own; real beds scatter by 10 to 15 %",
     ))
