@@ -191,7 +191,7 @@ impl Bed {
             format!("body_force.acceleration=[{acceleration:e}, 0.0, 0.0]"),
             format!("solid.weighting=\"{}\"", self.weighting),
             format!("records[0].every_steps={rows}"),
-            format!("stop.steps={}", 200 * rows),
+            format!("stop.steps={}", 600 * rows),
             format!("stop.steady.tolerance={:e}", self.tolerance),
         ];
         if let Packing::Random { count, seed, .. } = self.packing {
