@@ -30,6 +30,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "bed_force.csv",
+    units: "lattice units; error relative",
     full: "cargo run --release -- stability --out golden/stability made these rows; an hour or two, and it can be cut off",
     measure,
     judge,
