@@ -61,7 +61,11 @@ fn the_folder_of_a_report_holds_all_that_its_page_links_and_says_where_it_comes_
     {
         assert!(duct.contains(part), "{part}: {duct}");
     }
-    assert!(tradeoff.contains("rows of golden/tradeoff/held_back_check.csv"), "{tradeoff}");
+    assert!(
+        tradeoff.contains("Read, not computed, by: ")
+            && tradeoff.contains("; from golden/tradeoff/held_back_check.csv"),
+        "{tradeoff}"
+    );
 
     for name in [
         "made on",

@@ -276,8 +276,15 @@ fn rows(table: &DataTable) -> Markup {
         div class="wide" { table {
             thead { tr { @for column in &table.columns { th { (column) } } } }
             tbody {
-                @for row in &table.rows { tr { @for value in row { td class="number" { (value) } } } }
+                @for row in &table.rows { tr { @for value in row { (cell(value)) } } }
             }
         } }
+    }
+}
+
+/// A number stays on its line, minus signs of exponents too; words may be broken between.
+fn cell(value: &str) -> Markup {
+    html! {
+        @if value.contains(' ') { td { (value) } } @else { td class="number" { (value) } }
     }
 }

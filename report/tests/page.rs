@@ -30,7 +30,7 @@ fn page() -> Page {
             tables: vec![DataTable {
                 caption: "What was measured".to_owned(),
                 columns: vec!["cells".to_owned()],
-                rows: vec![vec!["42".to_owned()]],
+                rows: vec![vec!["4.2e-2".to_owned()], vec!["two words".to_owned()]],
             }],
             scenes: vec![link("golden/duct/scene.toml", "data/duct/scene.toml")],
             data: vec![link("duct.csv", "duct.csv"), link("duct_1.svg", "duct_1.svg")],
@@ -114,5 +114,9 @@ fn folded_tables_are_printed_and_figures_keep_their_size_on_small_screens() {
     assert!(print.contains("details::details-content { content-visibility: visible; }"));
     assert!(print.contains("figure svg { min-width: 0; }"));
     assert!(html.contains("figure { margin: 1rem 0; overflow-x: auto; }"));
+    // A number is never broken at the minus sign of its exponent.
+    assert!(
+        html.contains("<td class=\"number\">4.2e-2</td>") && html.contains("<td>two words</td>")
+    );
     assert!(html.contains("<details><summary>What was measured</summary>"));
 }

@@ -192,9 +192,9 @@ fn fill(
     let mut claims = (case.judge)(&golden, &rows)?;
     claims.extend(steady);
     let figures = (case.draw)(&golden, &rows)?;
+    section.data.push(measured(case, &rows, &read, request)?);
     read.extend(golden.tables_read());
     read.extend(case.literature.iter().map(|&file| file.to_owned()));
-    section.data.push(measured(case, &rows, request)?);
     section.data.extend(copies(case, read.iter().map(String::as_str), request)?);
     section.data.extend(report_files::figures(case, &figures, &request.out)?);
     section.verdicts = claims.iter().map(verdict).collect();

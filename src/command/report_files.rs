@@ -63,32 +63,35 @@ pub(super) fn figures(
     figures.iter().enumerate().map(draw).collect()
 }
 
-/// Writes the rows that a case has measured, under what a reader of them must know.
+/// Writes the rows that a case has measured, under what a reader of them must know. `read` are the tables of
+/// its folder that they come from or needed.
 pub(super) fn measured(
     case: &Case,
     rows: &Table,
+    read: &BTreeSet<String>,
     request: &ReportRequest,
 ) -> Result<Link, CommandError> {
     let name = format!("{}.csv", case.name);
-    let text = header(case, rows, request) + &rows.to_csv();
+    let text = header(case, rows, read, request) + &rows.to_csv();
     write(&request.out.join(&name), |path| {
         atomic::write(path, |out| out.write_all(text.as_bytes()))
     })?;
     Ok(Link { text: name.clone(), href: name })
 }
 
-fn header(case: &Case, rows: &Table, request: &ReportRequest) -> String {
+fn header(case: &Case, rows: &Table, read: &BTreeSet<String>, request: &ReportRequest) -> String {
     let day = provenance::today();
-    let rows_read = if case.scenes.is_empty() { &[case.rows] as &[_] } else { &[] };
-    let read: Vec<_> = [case.scenes, case.literature, rows_read].concat();
-    let origin = provenance::program_and_files(&request.golden.join(case.name), &read);
+    let files: Vec<_> =
+        case.scenes.iter().copied().chain(read.iter().map(String::as_str)).collect();
+    let origin = provenance::program_and_files(&request.golden.join(case.name), &files);
     let made = if case.scenes.is_empty() {
-        // Nothing has run: the rows are those of a committed file, whose own header says who made them.
+        // Nothing has run: the rows come from committed tables, whose own headers say who made them.
+        let tables: Vec<_> =
+            read.iter().map(|file| format!("golden/{}/{file}", case.name)).collect();
         format!(
-            "Judged, not made, by: {}, at {origin}, {day}; rows of golden/{}/{}",
+            "Read, not computed, by: {}, at {origin}, {day}; from {}",
             command(case, request),
-            case.name,
-            case.rows
+            tables.join(", ")
         )
     } else {
         let engines: BTreeSet<_> = rows.values("engine").unwrap_or_default().into_iter().collect();
