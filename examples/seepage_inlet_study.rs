@@ -9,11 +9,9 @@
 //! ```
 
 use std::error::Error;
-use std::fs::{self, OpenOptions};
-use std::io::Write;
 use std::path::Path;
 
-use psmrt::cases::{Bench, CaseError, EngineName};
+use psmrt::cases::{Bench, CaseError, EngineName, Study};
 use psmrt::kernel::Gpu;
 use psmrt::run::{End, RunError};
 
@@ -52,7 +50,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn add(bench: &mut Bench, collision: &str, tau: f64, reynolds: f64) -> Result<(), Box<dyn Error>> {
     let mut row = format!("{},{collision},{tau},{reynolds},", bench.engine_name().word());
-    if fs::read_to_string(STUDY)?.lines().any(|line| line.starts_with(&row)) {
+    let study = Study::new(STUDY);
+    if study.row(&row)?.is_some() {
         return Ok(());
     }
     let velocity = reynolds * SI_VISCOSITY * FRACTION / SI_DIAMETER;
@@ -83,8 +82,7 @@ fn add(bench: &mut Bench, collision: &str, tau: f64, reynolds: f64) -> Result<()
             format!("{outcome},{lattice:.5},{steps},{:.4},{max:.4},{change:.1e}", last / 1000.0)
         }
     };
-    row.push('\n');
-    OpenOptions::new().append(true).open(STUDY)?.write_all(row.as_bytes())?;
-    print!("{row}");
+    study.add(&row)?;
+    println!("{row}");
     Ok(())
 }

@@ -9,11 +9,9 @@
 //! ```
 
 use std::error::Error;
-use std::fs::{self, OpenOptions};
-use std::io::Write;
 use std::path::Path;
 
-use psmrt::cases::{Bed, Bench, Packing};
+use psmrt::cases::{Bed, Bench, Packing, Study};
 use psmrt::kernel::Gpu;
 
 const STUDY: &str = "golden/seepage/study.csv";
@@ -53,7 +51,7 @@ fn study() -> Result<(), Box<dyn Error>> {
 fn add_rows(bench: &mut Bench, runs: &[Bed]) -> Result<(), Box<dyn Error>> {
     for bed in runs {
         let start = bed.start(bench.engine_name().word()).join(",") + ",";
-        if !has(STUDY, &start)? {
+        if Study::new(STUDY).row(&start)?.is_none() {
             add(STUDY, &bed.row(bench)?)?;
         }
     }
@@ -217,18 +215,13 @@ fn survives(bench: &mut Bench, bed: Bed) -> Result<(bool, f64), Box<dyn Error>> 
 /// The row of a run that was made already.
 fn known(bench: &Bench, bed: Bed) -> Result<Option<Vec<String>>, Box<dyn Error>> {
     let start = bed.start(bench.engine_name().word()).join(",") + ",";
-    let rows = fs::read_to_string(STABILITY)?;
-    let row = rows.lines().find(|line| line.starts_with(&start));
+    let row = Study::new(STABILITY).row(&start)?;
     Ok(row.map(|line| line.split(',').map(str::to_owned).collect()))
 }
 
-fn has(file: &str, start: &str) -> Result<bool, Box<dyn Error>> {
-    Ok(fs::read_to_string(file)?.lines().any(|line| line.starts_with(start)))
-}
-
 fn add(file: &str, row: &[String]) -> Result<(), Box<dyn Error>> {
-    let line = row.join(",") + "\n";
-    OpenOptions::new().append(true).open(file)?.write_all(line.as_bytes())?;
-    print!("{line}");
+    let line = row.join(",");
+    Study::new(file).add(&line)?;
+    println!("{line}");
     Ok(())
 }

@@ -10,11 +10,9 @@
 //! ```
 
 use std::error::Error;
-use std::fs::{self, OpenOptions};
-use std::io::Write;
 use std::path::Path;
 
-use psmrt::cases::{Bench, Stream};
+use psmrt::cases::{Bench, Stream, Study};
 use psmrt::kernel::Gpu;
 
 const STUDY: &str = "golden/sphere_drag/study.csv";
@@ -42,13 +40,14 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn add_rows(bench: &mut Bench, runs: &[Stream]) -> Result<(), Box<dyn Error>> {
+    let study = Study::new(STUDY);
     for stream in runs {
         let start = stream.start(bench.engine_name().word()).join(",") + ",";
-        if fs::read_to_string(STUDY)?.lines().any(|line| line.starts_with(&start)) {
+        if study.row(&start)?.is_some() {
             continue;
         }
         let row = stream.row(bench)?.join(",");
-        OpenOptions::new().append(true).open(STUDY)?.write_all((row.clone() + "\n").as_bytes())?;
+        study.add(&row)?;
         println!("{row}");
     }
     Ok(())

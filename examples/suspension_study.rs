@@ -15,8 +15,8 @@ mod common;
 
 use common::golden_rows;
 use common::suspension::Suspension;
-use std::fs::{self, OpenOptions};
-use std::io::{self, Write};
+use psmrt::cases::Study;
+use std::io;
 
 const STUDY: &str = "golden/suspension/study.csv";
 
@@ -24,14 +24,14 @@ fn main() -> io::Result<()> {
     let mut rows: Vec<_> = golden_rows("suspension/far_field.csv").into_iter().skip(1).collect();
     // The smallest boxes first, the largest solid fractions with them.
     rows.sort_by_key(|row| row[3].parse::<u64>().unwrap_or(0));
+    let study = Study::new(STUDY);
     for tau in [0.55, 0.7] {
         for row in &rows {
             let wanted: f64 = row[0].parse().map_err(io::Error::other)?;
             let start = format!("{wanted},{},{},{tau},", &row[1], &row[2]);
             // Near 1/2 only where the dependence on tau is largest.
             let wants = tau > 0.6 || wanted >= 0.2;
-            let done = fs::read_to_string(STUDY)?.lines().any(|line| line.starts_with(&start));
-            if done || !wants {
+            if study.row(&start)?.is_some() || !wants {
                 continue;
             }
             let suspension = Suspension {
@@ -46,14 +46,14 @@ fn main() -> io::Result<()> {
             let steps = settling.steps_to_steady();
             settling.solver.run(steps).map_err(io::Error::other)?;
             let text = format!(
-                "{start}{:.6},{steps},{:.5},{},{}\n",
+                "{start}{:.6},{steps},{:.5},{},{}",
                 settling.solid_fraction,
                 settling.velocity(),
                 &row[5],
                 &row[6]
             );
-            OpenOptions::new().append(true).open(STUDY)?.write_all(text.as_bytes())?;
-            print!("{text}");
+            study.add(&text)?;
+            println!("{text}");
         }
     }
     Ok(())

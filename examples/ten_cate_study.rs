@@ -21,11 +21,10 @@
 mod common;
 
 use common::settling::{Experiment, Fall, Moment, compare};
-use psmrt::cases::Table;
+use psmrt::cases::{Study, Table};
 use psmrt::scene::{EngineKind, Scene};
 use std::error::Error;
-use std::fs::{self, OpenOptions};
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 const STUDY: &str = "golden/ten_cate/study.csv";
@@ -45,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for cells in [8, 12, 16] {
         for (name, tau) in CASES {
             let start = format!("{name},{cells},{tau},");
-            if fs::read_to_string(STUDY)?.lines().any(|line| line.starts_with(&start)) {
+            if Study::new(STUDY).row(&start)?.is_some() {
                 continue;
             }
             let experiment = Experiment::named(name);
@@ -97,10 +96,10 @@ fn add(
         .step_by(path.len().div_ceil(KEPT))
         .map(|m| format!("{start}{:.5},{:.5},{:.6}\n", m.si_time, m.gap, m.si_velocity))
         .collect();
-    append(FALLS, &kept)?;
+    Study::new(FALLS).add(&kept)?;
     let found = compare(experiment, path);
     let row = format!(
-        "{start}{cells},{steps},{:.5},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{engine}\n",
+        "{start}{cells},{steps},{:.5},{:.4},{:.4},{:.4},{:.4},{:.4},{:.4},{engine}",
         experiment.si_largest * (1.0 + found.largest),
         found.largest,
         found.velocity,
@@ -109,8 +108,8 @@ fn add(
         found.si_delay,
         found.braking,
     );
-    append(STUDY, &row)?;
-    print!("{row}");
+    Study::new(STUDY).add(&row)?;
+    println!("{row}");
     Ok(())
 }
 
@@ -122,8 +121,4 @@ fn until_it_touches(fall: &mut Fall) -> io::Result<Vec<Moment>> {
         path.push(fall.moment());
     }
     Ok(path)
-}
-
-fn append(file: &str, text: &str) -> io::Result<()> {
-    OpenOptions::new().append(true).open(file)?.write_all(text.as_bytes())
 }

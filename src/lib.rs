@@ -18,6 +18,7 @@
 //! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
 //! | [`stability`] | where the method survives and where it is right |
 //! | [`machine`] | what this machine has |
+//! | [`provenance`] | which commit results come from, and which day |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
@@ -33,6 +34,7 @@ pub mod oracle;
 pub mod output;
 pub mod packing;
 pub mod plan;
+pub mod provenance;
 pub mod run;
 pub mod scene;
 pub mod stability;

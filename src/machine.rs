@@ -10,6 +10,12 @@ pub fn memory_bytes() -> Option<u64> {
     Some(kib * 1024)
 }
 
+/// The same in words.
+pub fn memory_words() -> String {
+    let gib = |bytes| format!("{:.1} GiB", bytes as f64 / (1_u64 << 30) as f64);
+    memory_bytes().map_or_else(|| "unknown".to_owned(), gib)
+}
+
 /// Name of the processor, where the system says so.
 pub fn processor() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
@@ -32,4 +38,14 @@ pub fn processor_time() -> Option<Duration> {
 /// Threads that the engines may use.
 pub fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// The operating system, by the name that it gives itself where it does.
+pub fn system() -> String {
+    let own_name = || {
+        let text = std::fs::read_to_string("/etc/os-release").ok()?;
+        let name = text.lines().find_map(|line| line.strip_prefix("PRETTY_NAME="))?;
+        Some(name.trim_matches('"').to_owned())
+    };
+    own_name().unwrap_or_else(|| std::env::consts::OS.to_owned())
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::Budget;
-use psmrt::cases::{Bench, CASES, Case, Claim, Golden, drifts, steadiness};
+use psmrt::cases::{Bench, CASES, Case, CaseError, Claim, Golden, drifts, steadiness};
 use std::path::Path;
 
 fn golden() -> &'static Path {
@@ -149,4 +149,32 @@ fn every_scene_and_literature_file_belongs_to_a_case_that_names_it() {
             assert!(!is_one || known || text.contains(&file), "{folder}: nothing names {file}");
         }
     }
+}
+
+#[test]
+fn a_run_that_does_not_settle_says_what_still_changes_and_who_limits_it() {
+    let (mut bench, mut budget) = (Bench::new(golden(), None, |_| {}), Budget::oracle(200_000));
+    let mut told = |changes: &[&str]| {
+        let changes: Vec<_> = changes.iter().map(|&change| change.to_owned()).collect();
+        let error = bench.steady("poiseuille/scene.toml", &changes).err().unwrap();
+        assert!(matches!(error, CaseError::NotSteady { .. }), "{error}");
+        error.to_string()
+    };
+    // Three rows, 500 steps apart, of a flow that needs 29,500.
+    let text = told(&["stop.steps=1500", "stop.steady.tolerance=1e-7"]);
+    for part in [
+        "not steady after 1500 steps",
+        "superficial_velocity_x has changed by",
+        "1e-7 of itself",
+        "Raise the `stop.steps` that the case sets in its own code",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    // Of two limits the smaller one is named: here that of the changes is not the one that ends the run.
+    let text = told(&["stop.steps=100000000", "stop.time=0.1"]);
+    assert!(text.contains("Raise the `stop.time` that the case sets"), "{text}");
+    // Too short for a change to be known.
+    let text = told(&["stop.steps=600"]);
+    assert!(text.contains("fewer than three rows"), "{text}");
+    budget.spend(bench.cell_updates());
 }

@@ -67,7 +67,7 @@ pub use error::PlotError;
 pub use figure::{Axis, Figure, Panel, Scale};
 pub use fit::PowerLaw;
 pub use map::{Map, render_map};
-pub use page::{Appendix, DataTable, Page, Section, Verdict, render_page};
+pub use page::{Appendix, DataTable, Link, Page, Section, Verdict, render_page};
 pub use render::render_svg;
 pub use series::{Marker, Series, Style};
 pub use write::write_svg;

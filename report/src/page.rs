@@ -37,6 +37,15 @@ pub struct DataTable {
     pub rows: Vec<Vec<String>>,
 }
 
+/// A file beside the page.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// What it is called.
+    pub text: String,
+    /// Where it is, from the page's folder.
+    pub href: String,
+}
+
 /// One case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
@@ -52,8 +61,10 @@ pub struct Section {
     pub figures: Vec<Figure>,
     /// Its tables.
     pub tables: Vec<DataTable>,
-    /// The scene files, relative to the project.
-    pub scenes: Vec<String>,
+    /// Its scene files.
+    pub scenes: Vec<Link>,
+    /// The tables and pictures beside the page: what was measured, and what its figures draw.
+    pub data: Vec<Link>,
     /// The command that repeats it.
     pub command: String,
     /// The command that repeats it at the full scale, and what that takes.
@@ -70,7 +81,7 @@ pub struct Appendix {
 }
 
 /// The whole page.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Page {
     /// Its title.
     pub title: String,
@@ -125,8 +136,12 @@ pub fn render_page(page: &Page) -> Result<String, PlotError> {
                 p { (page.timings.caption) }
                 (rows(&page.timings))
                 h2 id="environment" { "Environment" }
-                dl {
-                    @for (name, value) in &page.environment { dt { (name) } dd { (value) } }
+                table class="facts" {
+                    tbody {
+                        @for (name, value) in &page.environment {
+                            tr { th scope="row" { (name) } td { (value) } }
+                        }
+                    }
                 }
             }
         }
@@ -174,22 +189,29 @@ fn appendix(appendix: &Appendix) -> Markup {
 
 fn all_verdicts(page: &Page) -> Markup {
     html! {
-        div class="wide" { table {
+        table class="claims" {
             thead { tr { th { "verdict" } th { "case" } th { "claim" } th { "measured" } th { "allowed" } } }
             tbody {
                 @for section in &page.sections {
                     @for verdict in &section.verdicts {
                         tr {
                             (word(verdict.holds))
-                            td { a href=(format!("#{}", section.name)) { (section.name) } }
-                            td { (verdict.claim) }
-                            td class="number" { (verdict.measured) }
-                            td class="number" { (verdict.allowed) }
+                            td class="case" { a href=(format!("#{}", section.name)) { (section.name) } }
+                            td class="claim" { (verdict.claim) }
+                            (numbers(verdict))
                         }
                     }
                 }
             }
-        } }
+        }
+    }
+}
+
+/// What was measured and what is allowed, in two cells that the style sheet names where there is no head.
+fn numbers(verdict: &Verdict) -> Markup {
+    html! {
+        td class="measured" { (verdict.measured) }
+        td class="allowed" { (verdict.allowed) }
     }
 }
 
@@ -207,33 +229,37 @@ fn section(section: &Section) -> Result<Markup, PlotError> {
             h2 { (section.title) }
             @for paragraph in &section.about { p { (paragraph) } }
             @for figure in figures { figure { (PreEscaped(figure)) } }
-            div class="wide" { table {
+            table class="claims" {
                 thead { tr { th { "claim" } th { "measured" } th { "allowed" } th { "verdict" } th { "why so much" } } }
                 tbody {
                     @for verdict in &section.verdicts {
                         tr {
-                            td { (verdict.claim) }
-                            td class="number" { (verdict.measured) }
-                            td class="number" { (verdict.allowed) }
+                            td class="claim" { (verdict.claim) }
+                            (numbers(verdict))
                             (word(verdict.holds))
                             td class="why" { (verdict.why) }
                         }
                     }
                 }
-            } }
+            }
             @for table in &section.tables { (data_table(table)) }
             p class="repeat" {
-                "Scenes: "
-                @for (i, scene) in section.scenes.iter().enumerate() {
-                    @if i > 0 { ", " }
-                    code { (scene) }
-                }
-                @if section.scenes.is_empty() { "none" }
+                "Scenes: " (links(&section.scenes)) ". Data: " (links(&section.data))
                 ". To repeat: " code { (section.command) }
                 ". Full scale: " (section.full) "."
             }
         }
     })
+}
+
+fn links(links: &[Link]) -> Markup {
+    html! {
+        @for (i, link) in links.iter().enumerate() {
+            @if i > 0 { ", " }
+            a href=(link.href) { code { (link.text) } }
+        }
+        @if links.is_empty() { "none" }
+    }
 }
 
 fn data_table(table: &DataTable) -> Markup {
@@ -250,8 +276,15 @@ fn rows(table: &DataTable) -> Markup {
         div class="wide" { table {
             thead { tr { @for column in &table.columns { th { (column) } } } }
             tbody {
-                @for row in &table.rows { tr { @for value in row { td class="number" { (value) } } } }
+                @for row in &table.rows { tr { @for value in row { (cell(value)) } } }
             }
         } }
+    }
+}
+
+/// A number stays on its line, minus signs of exponents too; words may be broken between.
+fn cell(value: &str) -> Markup {
+    html! {
+        @if value.contains(' ') { td { (value) } } @else { td class="number" { (value) } }
     }
 }

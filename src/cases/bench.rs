@@ -1,6 +1,8 @@
 //! Where cases run their scenes: on one engine, with cell updates counted; in folders that vanish, or,
 //! at the full scale, in folders that are kept, so that a run can be cut off and goes on next time.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -44,6 +46,7 @@ pub struct Bench {
     kept: Option<PathBuf>,
     cell_updates: u64,
     settled: Vec<Settled>,
+    read: RefCell<BTreeSet<String>>,
 }
 
 /// Makes who watches a run of a scene.
@@ -73,6 +76,7 @@ impl Bench {
             kept: None,
             cell_updates: 0,
             settled: Vec::new(),
+            read: RefCell::default(),
         }
     }
 
@@ -113,7 +117,13 @@ impl Bench {
 
     /// A table of the folder of a case. Errors if it cannot be read.
     pub fn literature(&self, case: &str, file: &str) -> Result<Table, CaseError> {
+        self.read.borrow_mut().insert(file.to_owned());
         Table::read(&self.golden.join(case).join(file))
+    }
+
+    /// The tables of a case's folder that were read, since they were last asked for.
+    pub fn tables_read(&mut self) -> BTreeSet<String> {
+        self.read.take()
     }
 
     /// Measures a case. Errors as [`Case::measure`] does.
@@ -125,14 +135,14 @@ impl Bench {
     /// cannot be run or reaches its limit of time first.
     pub fn steady(&mut self, scene: &str, changes: &[String]) -> Result<Finished, CaseError> {
         let (mut finished, end) = self.run(scene, changes)?;
-        let scene = format!("{scene} {}", changes.join(" "));
+        let name = format!("{scene} {}", changes.join(" "));
         if end == End::Steady {
-            let settled = Settled::of(scene, &finished)?;
+            let settled = Settled::of(name, &finished)?;
             self.settled.push(settled.clone());
             finished.settled = Some(settled);
             return Ok(finished);
         }
-        Err(CaseError::NotSteady { scene, steps: finished.engine.steps() })
+        Err(not_steady(name, &finished, changes))
     }
 
     /// Runs a scene of `golden/` to whatever end it has. Errors if it cannot be run.
@@ -189,6 +199,39 @@ impl Finished {
     pub fn record(&self, name: &str) -> Result<Table, CaseError> {
         Table::read(&self.folder.join(format!("{name}.csv")))
     }
+}
+
+/// The error of a run that its limit has ended: what was still changing, and who sets the limit.
+fn not_steady(scene: String, finished: &Finished, changes: &[String]) -> CaseError {
+    let Some(steady) = &finished.scene.stop.steady else { return CaseError::NoCriterion(scene) };
+    let key = limiting_key(&finished.scene);
+    let is_ours = changes.iter().any(|change| change.starts_with(&format!("{key}=")));
+    let whose = if is_ours {
+        "that the case sets in its own code (src/cases)"
+    } else {
+        "of the scene file"
+    };
+    let limit = format!("the `{key}` {whose}");
+    let change = match Settled::of(scene.clone(), finished) {
+        Ok(settled) => format!("has changed by {:.1e} of itself in the last row", settled.change),
+        Err(_) => "has fewer than three rows, or is zero".to_owned(),
+    };
+    CaseError::NotSteady {
+        scene,
+        steps: finished.engine.steps(),
+        limit,
+        column: steady.column_name(&finished.scene.records).to_owned(),
+        change,
+        tolerance: steady.tolerance,
+    }
+}
+
+/// Which of the two limits of a scene, the smaller one, ends its run.
+fn limiting_key(scene: &Scene) -> &'static str {
+    let text: Option<toml_edit::DocumentMut> = scene.text.parse().ok();
+    let steps = text.and_then(|text| text.get("stop")?.get("steps")?.as_integer());
+    let is_steps = steps.and_then(|steps| u64::try_from(steps).ok()) == Some(scene.stop.steps);
+    if is_steps { "stop.steps" } else { "stop.time" }
 }
 
 /// What a scene is changed by to collide with `mrt` (d'Humieres' rates), `srt` or `magic` (two rates,

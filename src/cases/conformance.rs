@@ -17,6 +17,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "confusion.csv",
+    units: "numbers of answers and of mistakes",
     full: "cargo run --release --example confusion made these rows; minutes",
     measure,
     judge,

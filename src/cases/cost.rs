@@ -18,6 +18,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "cost.csv",
+    units: "time_ratio without units; ns_per_cell_update in nanoseconds; bytes_per_cell in bytes",
     full: "cargo run --release --example model_cost made these rows; minutes",
     measure: |bench| bench.literature(CASE.name, CASE.rows),
     judge,

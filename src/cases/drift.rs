@@ -22,7 +22,7 @@ pub struct Drift {
     pub old: String,
     /// The new one.
     pub new: String,
-    /// By how much, in words.
+    /// By how much, and how often the tolerance that is, in words.
     pub change: String,
 }
 
@@ -62,12 +62,40 @@ pub fn drifts(old: &Table, new: &Table) -> Vec<Drift> {
 
 /// How two values differ, if they do.
 fn change(before: &str, after: &str) -> Option<String> {
+    // Equal words need no arithmetic, NaN least of all.
+    if before == after {
+        return None;
+    }
     match (before.parse::<f64>(), after.parse::<f64>()) {
         (Ok(old), Ok(new)) => {
-            let off = (new - old).abs();
-            let same = off <= (RELATIVE * old.abs()).max(ABSOLUTE);
-            (!same).then(|| format!("by {:.2e} of itself", off / old.abs()))
+            let (off, tolerance) = ((new - old).abs(), (RELATIVE * old.abs()).max(ABSOLUTE));
+            let same = off <= tolerance;
+            let times = || format!("{:.1} times the tolerance of {tolerance:.1e}", off / tolerance);
+            (!same).then(|| format!("by {off:.2e}, {}", times()))
         }
-        _ => (before != after).then(|| "another word".to_owned()),
+        _ => Some("another word".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Table, drifts};
+
+    fn found(old: &str, new: &str) -> Vec<String> {
+        let table = |value: &str| Table::parse("a", &format!("v\n{value}\n")).unwrap();
+        drifts(&table(old), &table(new)).into_iter().map(|drift| drift.change).collect()
+    }
+
+    #[test]
+    fn a_drift_says_how_often_its_tolerance_it_is() {
+        assert_eq!(found("2.0", "2.0001"), [""; 0]);
+        // 1e-4 of 2, twelve times.
+        assert_eq!(found("2.0", "1.9976"), ["by 2.40e-3, 12.0 times the tolerance of 2.0e-4"]);
+        // Of values that are rounding 1e-9 is allowed.
+        assert_eq!(found("0", "5e-9"), ["by 5.00e-9, 5.0 times the tolerance of 1.0e-9"]);
+        assert_eq!(found("1e-13", "3e-10"), [""; 0]);
+        assert_eq!(found("NaN", "NaN"), [""; 0]);
+        assert_eq!(found("1", "NaN").len(), 1);
+        assert_eq!(found("steady", "drifts"), ["another word"]);
     }
 }

@@ -20,6 +20,7 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml"],
     literature: &["literature.csv"],
     rows: "expected.csv",
+    units: "error_of_mean relative",
     full: "the quick form is the full one",
     measure,
     judge,

@@ -19,6 +19,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "parity.csv",
+    units: "error and allowed in what the column quantity names",
     full: "cargo run --example kernel_parity made these rows; minutes",
     measure,
     judge,

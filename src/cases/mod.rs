@@ -30,12 +30,15 @@ mod stability;
 mod steadiness;
 mod stokes_settling;
 mod stream;
+mod study;
 mod suspension;
 mod table;
 mod ten_cate;
 mod tradeoff;
 mod twins;
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -56,6 +59,7 @@ pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use packed_bed::{Bed, Packing};
 pub use steadiness::{Settled, steadiness};
 pub use stream::Stream;
+pub use study::Study;
 pub use table::Table;
 
 /// A case of the acceptance suite.
@@ -74,6 +78,8 @@ pub struct Case {
     /// The file in its folder with reviewed rows: the oracle's at the quick scale, or, without scenes,
     /// those of the full form or of another program.
     pub rows: &'static str,
+    /// The units of its rows, column by column where they differ.
+    pub units: &'static str,
     /// How its full form is made and what it holds, in words.
     pub full: &'static str,
     /// Runs its scenes, at the quick scale or at the bench's full one. Errors if one cannot be run or
@@ -124,16 +130,17 @@ impl Claim {
     }
 }
 
-/// The folder of golden files of one case.
+/// The folder of golden files of one case, and which tables have been read through it.
 #[derive(Clone, Debug)]
 pub struct Golden {
     folder: PathBuf,
+    read: RefCell<BTreeSet<String>>,
 }
 
 impl Golden {
     /// The folder `golden/<case>`.
     pub fn of(case: &Case, golden: &std::path::Path) -> Self {
-        Golden { folder: golden.join(case.name) }
+        Golden { folder: golden.join(case.name), read: RefCell::default() }
     }
 
     /// A file of it.
@@ -143,7 +150,13 @@ impl Golden {
 
     /// A table of it. Errors if it cannot be read.
     pub fn table(&self, file: &str) -> Result<Table, CaseError> {
+        self.read.borrow_mut().insert(file.to_owned());
         Table::read(&self.path(file))
+    }
+
+    /// The tables that were read so far: what claims and figures rest on besides measured rows.
+    pub fn tables_read(&self) -> BTreeSet<String> {
+        self.read.borrow().clone()
     }
 }
 
@@ -169,13 +182,29 @@ pub enum CaseError {
     #[error(transparent)]
     Step(#[from] EngineStop),
     /// A run ended at its limit of time: its result is not steady and cannot be judged.
-    #[error("{scene} is not steady after {steps} steps: raise `stop.time`")]
+    #[error(
+        "{scene}: not steady after {steps} steps, which is all that {limit} allows: {column} {change}; steady is \
+         {tolerance:e} of itself or less (stop.steady.tolerance), three times in a row. Raise {limit}; where that \
+         change no longer falls from row to row, the flow does not settle or rounding holds it there, and only a \
+         larger tolerance ends the run"
+    )]
     NotSteady {
-        /// The scene.
+        /// The scene, with its changes.
         scene: String,
         /// Steps made.
         steps: u64,
+        /// What sets that number, in words.
+        limit: String,
+        /// The column that should have become steady.
+        column: String,
+        /// By how much its last row has changed it, in words.
+        change: String,
+        /// The relative change from row to row that is allowed.
+        tolerance: f64,
     },
+    /// A case asks for a steady state of a scene that has no criterion for one.
+    #[error("{0} has no `stop.steady`: add that section, with `record`, `column` and `tolerance`")]
+    NoCriterion(String),
     /// A table lacks something.
     #[error("{0}")]
     Table(String),

@@ -22,6 +22,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &["far_field.csv"],
     rows: "study.csv",
+    units: "velocity and far fields over Stokes' velocity of one sphere alone",
     full: "cargo run --release --example suspension_study made these rows; hours, and it can be cut off",
     measure,
     judge,

@@ -19,6 +19,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &["literature.csv", "curves.csv"],
     rows: "study.csv",
+    units: "largest_velocity_m_s in m/s; delay_s in seconds; gap_offset and gap_rms in diameters; errors relative",
     full: "cargo run --release --example ten_cate_study made these rows; hours, and it can be cut off",
     measure,
     judge,

@@ -9,8 +9,9 @@ use clap::Subcommand;
 use super::execute::{interruption, say};
 use super::progress::Progress;
 use super::{CommandError, write};
-use crate::cases::{Bench, CASES, Case, Drift, Golden, drifts};
+use crate::cases::{Bench, CASES, Case, DRIFT_WORDS, Drift, Golden, drifts};
 use crate::output::atomic;
+use crate::provenance;
 
 /// What `psmrt golden` is asked for.
 #[derive(Clone, Debug, Subcommand)]
@@ -42,7 +43,9 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
     let cases: Vec<_> = CASES.iter().filter(runs).filter(wanted).collect();
     if cases.is_empty() {
         let names: Vec<_> = CASES.iter().filter(runs).map(|case| case.name).collect();
-        let problem = format!("no such case; there are {}", names.join(", "));
+        let wanted = request.case.as_deref().unwrap_or_default();
+        let problem =
+            format!("{wanted}: no case of that name runs scenes; there are {}", names.join(", "));
         return Err(CommandError::Usage(problem));
     }
     let interrupted = interruption();
@@ -68,7 +71,7 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
             }
         }
         if writes {
-            let text = header(case) + &new.to_csv();
+            let text = header(case, &golden) + &new.to_csv();
             write(&path, |path| atomic::write(path, |out| out.write_all(text.as_bytes())))?;
             say(&format!("{} written", path.display()));
         } else if old.is_none() {
@@ -79,14 +82,18 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
 }
 
 /// What a reader of the file must know.
-fn header(case: &Case) -> String {
-    let commit = option_env!("PSMRT_COMMIT").unwrap_or("unknown");
+fn header(case: &Case, golden: &Golden) -> String {
+    let read: Vec<_> = [case.scenes, case.literature].concat();
     format!(
         "# {}. The oracle's own results, against drift only: the truth is what the claims compare with.\n\
-         # Made by: cargo run --release -- golden write {}, at commit {commit}; engine reference.\n\
-         # Lengths in cells; errors relative; a value may change by {}.\n",
+         # Made by: {} golden write {}, at {}, {}; engine reference.\n\
+         # Units: {}. A value may change by {}.\n",
         case.title,
+        provenance::CARGO_RUN,
         case.name,
-        crate::cases::DRIFT_WORDS,
+        provenance::program_and_files(&golden.path(""), &read),
+        provenance::today(),
+        case.units,
+        DRIFT_WORDS,
     )
 }

@@ -4,14 +4,14 @@ use serde_json::{Value, json};
 
 use super::execute::say;
 use crate::kernel::{AdapterFacts, adapters};
-use crate::machine;
+use crate::{machine, provenance};
 
 /// The program: version, commit and whether the sources had been changed since, compiler's target.
 pub(super) fn program() -> Value {
     json!({
         "version": env!("CARGO_PKG_VERSION"),
-        "commit": option_env!("PSMRT_COMMIT"),
-        "modified": option_env!("PSMRT_MODIFIED").map(|text| text == "true"),
+        "commit": provenance::COMMIT,
+        "modified": provenance::sources_changed(),
         "target": format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS),
         "debug_assertions": cfg!(debug_assertions),
     })
@@ -47,10 +47,6 @@ pub fn info(json: bool) {
         Value::Null => "unknown".to_owned(),
         other => other.to_string(),
     };
-    let gib = machine::memory_bytes().map_or_else(
-        || "unknown".to_owned(),
-        |bytes| format!("{:.1} GiB", bytes as f64 / (1_u64 << 30) as f64),
-    );
     say(&format!("psmrt      {}", text(&program["version"])));
     let modified = match program["modified"].as_bool() {
         Some(true) => " and changes that are not committed",
@@ -60,7 +56,7 @@ pub fn info(json: bool) {
     say(&format!("target     {}", text(&program["target"])));
     say(&format!("processor  {}", text(&machine["processor"])));
     say(&format!("threads    {}", text(&machine["threads"])));
-    say(&format!("memory     {gib}"));
+    say(&format!("memory     {}", machine::memory_words()));
     say("engines    reference (the oracle: double precision, CPU)");
     say("           wgpu (the kernel: single precision, any adapter below)");
     if adapters.is_empty() {

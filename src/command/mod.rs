@@ -2,6 +2,7 @@
 
 pub mod check;
 mod comparison;
+mod environment;
 mod execute;
 pub mod golden;
 pub mod info;
@@ -12,6 +13,7 @@ mod plan_text;
 mod profile;
 mod progress;
 pub mod report;
+mod report_files;
 pub mod resume;
 pub mod run;
 pub mod stability;

@@ -1,5 +1,6 @@
 //! `psmrt report`: every case measured on every engine at hand, judged and drawn on one page.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
 use std::ops::RangeInclusive;
@@ -9,17 +10,20 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use clap::Args;
-use psmrt_report::{Appendix, DataTable, Page, Section, Verdict, render_page, write_svg};
+use psmrt_report::{Appendix, DataTable, Page, Section, Verdict, render_page};
 use serde_json::json;
 
+use super::environment::environment;
 use super::execute::{interruption, say};
 use super::progress::Progress;
-use super::{CommandError, info, write};
+use super::report_files::{self, command, copies, measured};
+use super::{CommandError, write};
 use crate::cases::{
     Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Settled, Table, steadiness,
 };
-use crate::kernel::{Gpu, adapters};
+use crate::kernel::Gpu;
 use crate::output::atomic;
+use crate::provenance;
 
 /// What `psmrt report` is asked for.
 #[derive(Args, Clone, Debug)]
@@ -50,24 +54,23 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
     let start = Instant::now();
     let cases = chosen(&request.cases)?;
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
-    let used = gpu
-        .as_ref()
-        .map_or("none: the kernel was not run".to_owned(), |gpu| gpu.facts().name.clone());
     let interrupted = interruption();
     let mut benches = vec![bench(None, request, json, &interrupted)];
     if gpu.is_some() {
-        benches.push(bench(gpu, request, json, &interrupted));
+        benches.push(bench(gpu.clone(), request, json, &interrupted));
     }
     fs::create_dir_all(&request.out).map_err(CaseError::from)?;
     let (mut sections, mut timings) = (Vec::new(), Vec::new());
     for (number, case) in cases.iter().enumerate() {
         eprintln!("{} of {}: {}", number + 1, cases.len(), case.title);
-        sections.push(match section(case, &mut benches, &mut timings, request) {
+        let mut section = empty(case, request)?;
+        match fill(&mut section, case, &mut benches, &mut timings, request) {
             Err(CommandError::Case(error)) if !matches!(error, CaseError::Interrupted) => {
-                broken(case, &error)
+                section.verdicts = vec![broken(&error)];
             }
             other => other?,
-        });
+        }
+        sections.push(section);
     }
     let scale = if request.full { "full scale" } else { "quick scale" };
     let page = Page {
@@ -78,6 +81,7 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
              tables and experiments. Each claim says what was measured, what is allowed and why so much; \
              an unsteady run is never judged."
                 .to_owned(),
+            format!("Made on {} by psmrt at {}.", provenance::today(), provenance::program()),
         ],
         sections,
         appendices: vec![Appendix {
@@ -94,7 +98,12 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
                 .to_vec(),
             rows: timings,
         },
-        environment: environment(used, scale, start.elapsed().as_secs_f64()),
+        environment: environment(
+            gpu.as_deref(),
+            &request.golden,
+            scale,
+            start.elapsed().as_secs_f64(),
+        ),
     };
     let html = render_page(&page).map_err(CaseError::from)?;
     let index = request.out.join("index.html");
@@ -131,31 +140,32 @@ fn bench(
     if request.full { bench.at_full_scale(&request.out.join("runs")) } else { bench }
 }
 
-fn environment(adapter: String, scale: &str, seconds: f64) -> Vec<(String, String)> {
-    let there = adapters().into_iter().map(|adapter| {
-        format!("{} ({}, {}; {})", adapter.name, adapter.kind, adapter.backend, adapter.driver)
-    });
-    let there: Vec<_> = there.collect();
-    [
-        ("program", info::program().to_string()),
-        ("machine", info::machine().to_string()),
-        ("adapter used", adapter),
-        ("adapters here", if there.is_empty() { "none".to_owned() } else { there.join("; ") }),
-        ("scale", scale.to_owned()),
-        ("seconds", format!("{seconds:.0}")),
-    ]
-    .map(|(name, value)| (name.to_owned(), value))
-    .to_vec()
+/// What the section of a case holds whatever its runs do.
+fn empty(case: &Case, request: &ReportRequest) -> Result<Section, CommandError> {
+    Ok(Section {
+        name: case.name.to_owned(),
+        title: case.title.to_owned(),
+        about: case.about.iter().map(|&text| text.to_owned()).collect(),
+        verdicts: Vec::new(),
+        figures: Vec::new(),
+        tables: Vec::new(),
+        scenes: report_files::scenes(case, request)?,
+        data: Vec::new(),
+        command: command(case, request),
+        full: case.full.to_owned(),
+    })
 }
 
-fn section(
+/// Measures a case, judges it and draws it. The section stays as it was if that fails.
+fn fill(
+    section: &mut Section,
     case: &Case,
     benches: &mut [Bench],
     timings: &mut Vec<Vec<String>>,
     request: &ReportRequest,
-) -> Result<Section, CommandError> {
+) -> Result<(), CommandError> {
     let golden = Golden::of(case, &request.golden);
-    let mut rows = Table::default();
+    let (mut rows, mut read) = (Table::default(), BTreeSet::new());
     let (mut steady, mut settled) = (Vec::new(), Table::new(&SETTLED));
     for bench in benches {
         // What is judged from committed results is the same on every engine.
@@ -164,6 +174,7 @@ fn section(
         }
         let (start, updates) = (Instant::now(), bench.cell_updates());
         rows.append(bench.measure(case)?);
+        read.extend(bench.tables_read());
         let (seconds, updates) = (start.elapsed().as_secs_f64(), bench.cell_updates() - updates);
         if updates > 0 {
             timings.push(vec![
@@ -181,32 +192,23 @@ fn section(
     let mut claims = (case.judge)(&golden, &rows)?;
     claims.extend(steady);
     let figures = (case.draw)(&golden, &rows)?;
-    for (number, figure) in figures.iter().enumerate() {
-        let path = request.out.join(format!("{}_{}.svg", case.name, number + 1));
-        write(&path, |path| write_svg(figure, path))?;
-    }
-    let table = request.out.join(format!("{}.csv", case.name));
-    let text = rows.to_csv();
-    write(&table, |path| atomic::write(path, |out| out.write_all(text.as_bytes())))?;
-    Ok(Section {
-        name: case.name.to_owned(),
-        title: case.title.to_owned(),
-        about: case.about.iter().map(|&text| text.to_owned()).collect(),
-        verdicts: claims.iter().map(verdict).collect(),
-        figures,
-        tables: [("What was measured", rows), ("How steady the runs were", settled)]
-            .into_iter()
-            .filter(|(_, table)| !table.rows.is_empty())
-            .map(|(caption, Table { columns, rows })| DataTable {
-                caption: caption.to_owned(),
-                columns,
-                rows,
-            })
-            .collect(),
-        scenes: scenes(case),
-        command: command(case),
-        full: case.full.to_owned(),
-    })
+    section.data.push(measured(case, &rows, &read, request)?);
+    read.extend(golden.tables_read());
+    read.extend(case.literature.iter().map(|&file| file.to_owned()));
+    section.data.extend(copies(case, read.iter().map(String::as_str), request)?);
+    section.data.extend(report_files::figures(case, &figures, &request.out)?);
+    section.verdicts = claims.iter().map(verdict).collect();
+    section.figures = figures;
+    section.tables = [("What was measured", rows), ("How steady the runs were", settled)]
+        .into_iter()
+        .filter(|(_, table)| !table.rows.is_empty())
+        .map(|(caption, Table { columns, rows })| DataTable {
+            caption: caption.to_owned(),
+            columns,
+            rows,
+        })
+        .collect();
+    Ok(())
 }
 
 /// Columns of the table of steady runs: relative changes of the column that the scene names.
@@ -219,33 +221,15 @@ fn settled_row(engine: &str, run: &Settled) -> Vec<String> {
     [vec![engine.to_owned(), run.clone(), steps.to_string()], numbers.to_vec()].concat()
 }
 
-/// The section of a case that could not be measured: red, with the reason.
-fn broken(case: &Case, error: &CaseError) -> Section {
-    Section {
-        name: case.name.to_owned(),
-        title: case.title.to_owned(),
-        about: case.about.iter().map(|&text| text.to_owned()).collect(),
-        verdicts: vec![Verdict {
-            claim: "it can be measured".to_owned(),
-            measured: error.to_string(),
-            allowed: "runs to its end".to_owned(),
-            why: "a run that stops has no result".to_owned(),
-            holds: false,
-        }],
-        figures: Vec::new(),
-        tables: Vec::new(),
-        scenes: scenes(case),
-        command: command(case),
-        full: case.full.to_owned(),
+/// The verdict on a case that could not be measured: red, with the reason.
+fn broken(error: &CaseError) -> Verdict {
+    Verdict {
+        claim: "it can be measured".to_owned(),
+        measured: error.to_string(),
+        allowed: "runs to its end".to_owned(),
+        why: "a run that stops has no result".to_owned(),
+        holds: false,
     }
-}
-
-fn scenes(case: &Case) -> Vec<String> {
-    case.scenes.iter().map(|scene| format!("golden/{}/{scene}", case.name)).collect()
-}
-
-fn command(case: &Case) -> String {
-    format!("cargo run --release -- report --case {}", case.name)
 }
 
 fn verdict(claim: &Claim) -> Verdict {

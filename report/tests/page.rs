@@ -1,0 +1,122 @@
+//! The page: what a reader must find on it, on a screen, a phone and paper.
+
+use psmrt_report::{Axis, DataTable, Figure, Link, Page, Section, Series, Verdict, render_page};
+
+fn link(text: &str, href: &str) -> Link {
+    Link { text: text.to_owned(), href: href.to_owned() }
+}
+
+fn verdict(holds: bool) -> Verdict {
+    Verdict {
+        claim: "order of the error".to_owned(),
+        measured: "1.97".to_owned(),
+        allowed: "1.8 to 2.1".to_owned(),
+        why: "second order".to_owned(),
+        holds,
+    }
+}
+
+fn page() -> Page {
+    let figure = Figure::new("Profile", Axis::linear("x"), Axis::linear("u"))
+        .with(Series::line("a", vec![(0.0, 1.0), (1.0, 2.0)]));
+    Page {
+        title: "report".to_owned(),
+        sections: vec![Section {
+            name: "duct".to_owned(),
+            title: "Flow in a duct".to_owned(),
+            about: vec!["A <flow>.".to_owned()],
+            verdicts: vec![verdict(true)],
+            figures: vec![figure],
+            tables: vec![DataTable {
+                caption: "What was measured".to_owned(),
+                columns: vec!["cells".to_owned()],
+                rows: vec![vec!["4.2e-2".to_owned()], vec!["two words".to_owned()]],
+            }],
+            scenes: vec![link("golden/duct/scene.toml", "data/duct/scene.toml")],
+            data: vec![link("duct.csv", "duct.csv"), link("duct_1.svg", "duct_1.svg")],
+            command: "psmrt report --case duct".to_owned(),
+            full: "none".to_owned(),
+        }],
+        environment: vec![("made on".to_owned(), "2026-11-22 (UTC)".to_owned())],
+        ..Page::default()
+    }
+}
+
+#[test]
+fn scenes_and_data_are_links_and_what_there_is_none_of_is_called_so() {
+    let html = render_page(&page()).unwrap();
+    for (text, href) in [
+        ("golden/duct/scene.toml", "data/duct/scene.toml"),
+        ("duct.csv", "duct.csv"),
+        ("duct_1.svg", "duct_1.svg"),
+    ] {
+        let link = format!("<a href=\"{href}\"><code>{text}</code></a>");
+        assert!(html.contains(&link), "{link}");
+    }
+    let mut without = page();
+    without.sections[0].scenes.clear();
+    assert!(render_page(&without).unwrap().contains("Scenes: none."));
+}
+
+#[test]
+fn a_page_needs_no_other_file_to_be_read() {
+    let html = render_page(&page()).unwrap();
+    assert!(html.contains("<svg") && html.contains("<style>"));
+    for needs in ["<img", "<script", "<link", "@import", "src=", "url("] {
+        assert!(!html.contains(needs), "{needs}");
+    }
+    assert!(html.contains("A &lt;flow&gt;."), "words are not obeyed as HTML");
+}
+
+#[test]
+fn the_environment_is_a_table_whose_names_are_headings() {
+    let html = render_page(&page()).unwrap();
+    assert!(html.contains("<tr><th scope=\"row\">made on</th><td>2026-11-22 (UTC)</td></tr>"));
+}
+
+#[test]
+fn a_claim_that_fails_is_told_by_words_and_not_by_colour_alone() {
+    let mut page = page();
+    assert!(page.holds() && render_page(&page).unwrap().contains("1 of 1 claims hold."));
+    page.sections[0].verdicts.push(verdict(false));
+    let html = render_page(&page).unwrap();
+    assert!(!page.holds() && html.contains("✗ FAILS") && html.contains("1 of 2 claims hold."));
+    page.sections[0].verdicts.clear();
+    assert!(!page.holds(), "a case without a claim shows nothing");
+}
+
+/// The rules for a medium: from `head` to the brace that closes it.
+fn rules<'a>(html: &'a str, head: &str) -> &'a str {
+    let from = html.find(head).unwrap_or_else(|| panic!("no {head}"));
+    let rules = &html[from..];
+    &rules[..rules.find("\n}").unwrap()]
+}
+
+#[test]
+fn on_a_phone_claims_are_cards_whose_numbers_have_names() {
+    let html = render_page(&page()).unwrap();
+    let phone = rules(&html, "@media screen and (max-width: 40rem)");
+    // Without the head of the table its columns are named in front of the numbers.
+    assert!(phone.contains(".claims thead { display: none; }"));
+    for name in ["measured", "allowed"] {
+        assert!(phone.contains(&format!(".claims .{name}::before {{ content: \"{name} \"")));
+        // In both tables, of all claims and of the case.
+        assert_eq!(html.matches(&format!("<td class=\"{name}\">")).count(), 2);
+    }
+    assert_eq!(html.matches("<table class=\"claims\">").count(), 2);
+}
+
+#[test]
+fn folded_tables_are_printed_and_figures_keep_their_size_on_small_screens() {
+    let html = render_page(&page()).unwrap();
+    // Chromium folds `details` by `content-visibility`, which no `display` undoes.
+    let print = rules(&html, "@media print");
+    assert!(print.contains("details::details-content { content-visibility: visible; }"));
+    assert!(print.contains("figure svg { min-width: 0; }"));
+    assert!(html.contains("figure { margin: 1rem 0; overflow-x: auto; }"));
+    // A number is never broken at the minus sign of its exponent.
+    assert!(
+        html.contains("<td class=\"number\">4.2e-2</td>") && html.contains("<td>two words</td>")
+    );
+    assert!(html.contains("<details><summary>What was measured</summary>"));
+}
