@@ -83,7 +83,7 @@ fn error_figure(rows: &Table) -> Result<Figure, CaseError> {
             // With magic rates the error is rounding, which has no order.
             if rates == "mrt" && engine == EngineName::Reference.word() {
                 let fit = PowerLaw::fit(&points)?;
-                let label = format!("{name}, {engine}: fit of order {}", fit.order_words());
+                let label = format!("{name}, {engine}: fit of order {:.2}", -fit.order);
                 figure = figure.with(fit.series(label, (grids[0], grids[grids.len() - 1])));
             }
             figure = figure.with(found(name, &engine, points, None));
