@@ -157,15 +157,18 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         let exact = own.points("solid_fraction_c", "K_computed")?;
         figure = figure.with(Series::line(format!("{lattice}, exact"), exact).with_colour(colour));
     }
+    let mut errors = Vec::new();
     for engine in rows.values("engine")? {
-        let drags = rows.with(&[("engine", &engine)])?.points("solid_fraction", "K")?;
-        figure = figure.with(found("", &engine, drags, None));
+        for (colour, lattice) in LATTICES.into_iter().enumerate() {
+            let own = rows.with(&[("engine", &engine), ("lattice", lattice)])?;
+            let drags = own.points("solid_fraction", "K")?;
+            figure = figure.with(found(lattice, &engine, drags, Some(colour)));
+            let own = own.points("solid_fraction", "error")?;
+            errors.push(found(lattice, &engine, own, Some(colour)));
+        }
     }
-    figure = figure.with_panel(Axis::linear("K/K exact - 1"));
-    for engine in rows.values("engine")? {
-        let errors = rows.with(&[("engine", &engine)])?.points("solid_fraction", "error")?;
-        figure = figure.with(found("", &engine, errors, None));
-    }
+    figure = figure.with_panel(Axis::linear("K/K exact - 1").range(-0.14, 0.0));
+    figure = errors.into_iter().fold(figure, Figure::with);
     let convergence = convergence(rows)?;
     Ok(vec![
         figure

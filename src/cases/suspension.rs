@@ -110,7 +110,8 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             ),
             measured: own.number("velocity_infinite")?,
             allowed: DENSE.0 * lower..=1.05 * upper,
-            why: DENSE.1,
+            why: "as for the study's dense suspensions (below); at this tau, 0.7, the spheres leak so much more than at its 0.55 \
+                  that the same placement settles 9 % faster, which is why it comes closer to the laws",
         });
     }
     claims.extend(full_claims(&golden.table("study.csv")?)?);
@@ -193,6 +194,6 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         figure = figure.with(Series { points, ..series });
     }
     Ok(vec![figure.note(
-        "bars: standard error over the two or three placements; the exponents are stated without uncertainty. Quick form: tau = 0.7, else 0.55 from 0.2 on",
+        "bars: standard error over the two or three placements; the exponents are stated without uncertainty. From 0.2 on tau = 0.55; scene.toml: 0.7",
     )])
 }
