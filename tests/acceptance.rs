@@ -23,7 +23,9 @@ fn holds(name: &str, budget: &mut Budget) {
     let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
     budget.spend(bench.cell_updates());
     let steady = steadiness(bench.engine_name().word(), &bench.settled());
-    for claim in (case.judge)(&files, &rows).unwrap().iter().chain(&steady) {
+    let claims = (case.judge)(&files, &rows).unwrap();
+    assert!(!claims.is_empty(), "{name} claims nothing");
+    for claim in claims.iter().chain(&steady) {
         let Claim { what, measured, allowed, why } = claim;
         println!("{name}: {what}: {measured:.3e} in {allowed:?}");
         assert!(claim.holds(), "{name}: {what}: {measured} is not in {allowed:?} ({why})");
@@ -57,7 +59,7 @@ fn seepage_through_a_bed_holds_its_claims() {
 
 #[test]
 fn sphere_arrays_hold_their_claims() {
-    holds("sphere_arrays", &mut Budget::oracle(70_000_000));
+    holds("sphere_arrays", &mut Budget::oracle(80_000_000));
 }
 
 #[test]
@@ -71,13 +73,13 @@ fn a_settling_cloud_holds_its_claims() {
 }
 
 #[test]
-fn committed_falls_of_ten_cate_hold_their_claims() {
-    holds("ten_cate", &mut Budget::oracle(0));
+fn a_sphere_in_a_tank_holds_its_claims() {
+    holds("ten_cate", &mut Budget::oracle(18_000_000));
 }
 
 #[test]
-fn committed_suspensions_hold_their_claims() {
-    holds("suspension", &mut Budget::oracle(0));
+fn a_settling_suspension_holds_its_claims() {
+    holds("suspension", &mut Budget::oracle(19_700_000));
 }
 
 #[test]
@@ -110,6 +112,16 @@ fn committed_costs_hold_their_claims() {
     holds("cost", &mut Budget::oracle(0));
 }
 
+/// Cases that run no scene of their own, and why not: they judge rows that another command has made.
+const WITHOUT_SCENES: [(&str, &str); 6] = [
+    ("conformance", "it judges programs that make planted mistakes"),
+    ("tradeoff", "its sweep runs its scenes with every setting, for hours"),
+    ("kernel_parity", "it compares two engines step by step"),
+    ("kernel_speed", "it measures speeds of a machine"),
+    ("stability", "its maps take thousands of runs, most of which are meant to break"),
+    ("cost", "it measures times of a machine"),
+];
+
 /// The names of the files in a folder.
 fn names(folder: &Path) -> Vec<String> {
     let entries = std::fs::read_dir(folder).unwrap();
@@ -121,6 +133,9 @@ fn every_case_has_scenes_literature_reviewed_results_and_a_test() {
     let tests = include_str!("acceptance.rs");
     for case in CASES {
         let (name, files) = (case.name, Golden::of(case, golden()));
+        let excused =
+            WITHOUT_SCENES.iter().any(|(without, why)| *without == name && !why.is_empty());
+        assert!(excused == case.scenes.is_empty(), "{name}: scenes, or a reason why it has none");
         for scene in case.scenes {
             assert!(files.path(scene).exists(), "{name}: no {scene}");
         }

@@ -37,11 +37,19 @@ fn seepage_through_a_bed_holds_its_claims() {
 }
 
 fn sphere_arrays_hold_their_claims() {
-    holds("sphere_arrays", &mut Budget::kernel(80_000_000));
+    holds("sphere_arrays", &mut Budget::kernel(90_000_000));
 }
 
 fn a_settling_grain_holds_its_claims() {
     holds("stokes_settling", &mut Budget::kernel(24_500_000));
+}
+
+fn a_settling_suspension_holds_its_claims() {
+    holds("suspension", &mut Budget::kernel(19_700_000));
+}
+
+fn a_sphere_in_a_tank_holds_its_claims() {
+    holds("ten_cate", &mut Budget::kernel(18_000_000));
 }
 
 fn a_settling_cloud_holds_its_claims() {
@@ -56,6 +64,8 @@ fn main() -> ExitCode {
         ("seepage_through_a_bed_holds_its_claims", seepage_through_a_bed_holds_its_claims),
         ("sphere_arrays_hold_their_claims", sphere_arrays_hold_their_claims),
         ("a_settling_grain_holds_its_claims", a_settling_grain_holds_its_claims),
+        ("a_settling_suspension_holds_its_claims", a_settling_suspension_holds_its_claims),
+        ("a_sphere_in_a_tank_holds_its_claims", a_sphere_in_a_tank_holds_its_claims),
         ("a_settling_cloud_holds_its_claims", a_settling_cloud_holds_its_claims),
     ])
 }

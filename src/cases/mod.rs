@@ -25,6 +25,7 @@ mod seepage_study;
 mod sphere_arrays;
 mod sphere_drag;
 mod sphere_drag_figures;
+mod sphere_drag_others;
 mod sphere_drag_study;
 mod stability;
 mod steadiness;
@@ -34,6 +35,8 @@ mod study;
 mod suspension;
 mod table;
 mod ten_cate;
+mod ten_cate_figures;
+mod ten_cate_study;
 mod tradeoff;
 mod twins;
 

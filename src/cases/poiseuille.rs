@@ -30,7 +30,7 @@ pub const CASE: Case = Case {
     draw,
 };
 
-pub(super) const CELLS: [u32; 3] = [8, 16, 32];
+const CELLS: [u32; 3] = [8, 16, 32];
 const FULL_CELLS: [u32; 5] = [8, 16, 32, 64, 128];
 
 /// Relaxation times at which the place of the wall is looked at, as the literature spells them.
@@ -162,31 +162,49 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             allowed: 0.0..=most,
             why,
         });
+        let is_oracle = engine == EngineName::Reference.word();
+        let seen = |slip: &f64| is_oracle || *slip > KERNEL_SEES;
         let own = by_grid(rows, &engine, "mrt")?;
+        let slips = own.numbers("slip_l2")?;
+        let errors = own.points("cells_across", "relative_l2")?.into_iter().zip(&slips);
+        let errors: Vec<_> =
+            errors.filter(|(_, slip)| seen(slip)).map(|(error, _)| error).collect();
+        let finest = errors.last().map_or(0.0, |error| error.0);
         claims.push(Claim {
-            what: format!("{engine}: order of the error with d'Humieres' rates"),
-            measured: -PowerLaw::fit(&own.points("cells_across", "relative_l2")?)?.order,
+            what: format!(
+                "{engine}: order of the error with d'Humieres' rates, grids of 8 to {finest} cells"
+            ),
+            measured: -PowerLaw::fit(&errors)?.order,
             allowed: 1.97..=2.03,
-            why: "the wall's slip is exactly of second order; the rest is rounding",
+            why: "the wall's slip is exactly of second order; the rest is rounding: on the kernel grids count whose slip is \
+                  ten times what single precision leaves",
         });
-        let ratio = own.points("relative_l2", "slip_l2")?.into_iter().map(|(l2, slip)| l2 / slip);
+        let ratio = own.points("relative_l2", "slip_l2")?.into_iter();
+        let ratio = ratio.filter(|(_, slip)| seen(slip)).map(|(l2, slip)| l2 / slip);
         let off = ratio.map(|ratio| (ratio - 1.0).abs()).fold(0.0, f64::max);
         claims.push(Claim {
             what: format!("{engine}: the error is the wall's known slip (largest relative difference)"),
             measured: off,
-            allowed: 0.0..=if engine == EngineName::Reference.word() { 1e-5 } else { 0.05 },
+            allowed: 0.0..=if is_oracle { 1e-5 } else { 0.05 },
             why: "closed form by Ginzburg & d'Humieres 2003; d'Humieres' rates add errors that fall with the square of the lattice velocity (0.03 at 8 cells; ERRATA.md), and single precision 1e-4 of a slip of 1e-3",
         });
     }
     Ok(claims)
 }
 
-/// The rows at tau = 0.8 on the three grids.
+/// The rows at tau = 0.8, one a grid: on 8 cells the first, the second being the slow one.
 pub(super) fn by_grid(rows: &Table, engine: &str, rates: &str) -> Result<Table, CaseError> {
-    let mut own = rows.with(&[("engine", engine), ("rates", rates), ("tau", "0.8")])?;
-    own.rows.truncate(CELLS.len());
-    Ok(own)
+    let own = rows.with(&[("engine", engine), ("rates", rates), ("tau", "0.8")])?;
+    let mut found = Table { columns: own.columns.clone(), rows: Vec::new() };
+    for cells in own.values("cells_across")? {
+        let grid = own.with(&[("cells_across", &cells)])?;
+        found.rows.extend(grid.rows.into_iter().next());
+    }
+    Ok(found)
 }
+
+/// Single precision leaves 1e-4 of the velocity (claim on the magic rates): a tenth of this.
+const KERNEL_SEES: f64 = 1e-3;
 
 /// The rows on 8 cells at all relaxation times: wall found and wall known.
 pub(super) fn by_tau(

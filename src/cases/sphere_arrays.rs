@@ -8,6 +8,7 @@ use psmrt_report::{Axis, Figure, PowerLaw, Series};
 
 use super::bench::Finished;
 use super::found::found;
+use super::sphere_drag_study::without_grid;
 use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table};
 
 /// Regular arrays of spheres.
@@ -17,8 +18,9 @@ pub const CASE: Case = Case {
     about: &[
         "A body force drives water slowly through an endless simple, body-centred or face-centred cubic \
          array of spheres. The drag K = F/(6 pi mu a U), with F the whole force per sphere and U the \
-         superficial velocity, is known to eight digits (integral equation, computed for this project; \
-         Zick & Homsy 1982 agree in every printed digit).",
+         superficial velocity, is known to eight digits (integral equation, computed for this project). \
+         Zick & Homsy 1982, as quoted by others for the simple cubic array, agree in every printed digit; their tables for \
+         the other two were not at hand.",
         "Spheres of partially saturated cells leak like bodies of permeability nu/2, so K is too small, \
          the more so the larger the relaxation time; here it is 0.6. The error falls with the square of \
          the cell size. study.csv holds relaxation times from 0.51 to 2, collisions, weights and solid \
@@ -34,12 +36,16 @@ pub const CASE: Case = Case {
     draw,
 };
 
+const LATTICES: [&str; 3] = ["SC", "BCC", "FCC"];
+
 /// Lattice, solid fraction as the literature spells it, cells along the edge of the unit cell.
-const RUNS: [(&str, &str, u32); 5] = [
+const RUNS: [(&str, &str, u32); 7] = [
     ("SC", "0.343", 8),
     ("SC", "0.343", 12),
     ("SC", "0.343", 16),
+    ("BCC", "0.216", 14),
     ("BCC", "0.216", 20),
+    ("FCC", "0.216", 14),
     ("FCC", "0.216", 20),
 ];
 
@@ -117,13 +123,23 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             why: "second order; between 7 and 14 cells per diameter places of the sphere on the grid change the error by a tenth",
         });
         for lattice in own.values("lattice")? {
-            let errors = own.with(&[("lattice", &lattice)])?.numbers("error")?;
+            let errors = own.with(&[("lattice", &lattice)])?;
+            let errors = errors.points("cells_per_diameter", "error")?;
             claims.push(Claim {
                 what: format!("{engine}: error of K on the finest grid, {lattice}"),
-                measured: errors.last().copied().unwrap_or(f64::NAN),
+                measured: errors.last().map_or(f64::NAN, |finest| finest.1),
                 allowed: -0.05..=0.0,
                 why: "spheres leak as bodies of permeability nu/2: at 9 to 14 cells per diameter and tau = 0.6 \
                       this takes 1 to 5 % off the drag (study.csv); never the other way",
+            });
+            claims.push(Claim {
+                what: format!("{engine}: error of K, finest two grids extrapolated, {lattice}"),
+                measured: without_grid(&errors).unwrap_or(f64::NAN),
+                allowed: -0.015..=0.03,
+                why: "second-order extrapolation does not see that a wall lies 0.02 cells in the fluid (tests/ps_channel_wall.rs): \
+                      0.3 to 0.4 % of these radii, and K grows as their 5th to 7th power, 2 %, of which 0.6 are left: 1.0 to \
+                      1.3 % too much. Places of the sphere on the grid change the coarser error by a tenth, 0.5 to 1.1 % of \
+                      K either way. For 1 % finer grids are needed: report --full",
             });
         }
     }
@@ -137,34 +153,51 @@ fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         Axis::linear("solid fraction").range(0.0, 0.4),
         Axis::log("K = F/(6 pi mu a U)").range(1.0, 30.0),
     );
-    for (colour, lattice) in ["SC", "BCC", "FCC"].into_iter().enumerate() {
+    for (colour, lattice) in LATTICES.into_iter().enumerate() {
         let own = literature.with(&[("lattice", lattice)])?;
         let exact = own.points("solid_fraction_c", "K_computed")?;
         figure = figure.with(Series::line(format!("{lattice}, exact"), exact).with_colour(colour));
     }
+    let mut errors = Vec::new();
     for engine in rows.values("engine")? {
-        let drags = rows.with(&[("engine", &engine)])?.points("solid_fraction", "K")?;
-        figure = figure.with(found("", &engine, drags, None));
+        for (colour, lattice) in LATTICES.into_iter().enumerate() {
+            let own = rows.with(&[("engine", &engine), ("lattice", lattice)])?;
+            let drags = own.points("solid_fraction", "K")?;
+            figure = figure.with(found(lattice, &engine, drags, Some(colour)));
+            let own = own.points("solid_fraction", "error")?;
+            errors.push(found(lattice, &engine, own, Some(colour)));
+        }
     }
-    figure = figure.with_panel(Axis::linear("K/K exact - 1"));
-    for engine in rows.values("engine")? {
-        let errors = rows.with(&[("engine", &engine)])?.points("solid_fraction", "error")?;
-        figure = figure.with(found("", &engine, errors, None));
-    }
-    let mut convergence = Figure::new(
-        "Simple cubic array, solid fraction 0.343: error against resolution",
-        Axis::log("cells per diameter").ticks(&[7.0, 10.0, 14.0]),
+    figure = figure.with_panel(Axis::linear("K/K exact - 1").range(-0.14, 0.0));
+    figure = errors.into_iter().fold(figure, Figure::with);
+    let convergence = convergence(rows)?;
+    Ok(vec![
+        figure
+            .note("6.6 to 14 cells per diameter, several grids each, tau = 0.6; the exact values are known to 1e-8"),
+        convergence,
+    ])
+}
+
+/// The error against resolution.
+fn convergence(rows: &Table) -> Result<Figure, CaseError> {
+    let mut figure = Figure::new(
+        "Sphere arrays: error against resolution",
+        Axis::log("cells per diameter").ticks(&[7.0, 8.0, 10.0, 12.0, 14.0]),
         Axis::log("|K/K exact - 1|"),
     );
     for engine in rows.values("engine")? {
-        let own = rows.with(&[("engine", &engine), ("lattice", "SC")])?;
-        let errors = own.points("cells_per_diameter", "error")?;
-        let errors: Vec<_> = errors.into_iter().map(|(d, error)| (d, error.abs())).collect();
-        let fit = PowerLaw::fit(&errors)?;
-        let ends = (errors[0].0, errors[errors.len() - 1].0);
-        let label = format!("{engine}: fit of order {}", fit.order_words());
-        convergence =
-            convergence.with(found("", &engine, errors, None)).with(fit.series(label, ends));
+        for (colour, lattice) in LATTICES.into_iter().enumerate() {
+            let own = rows.with(&[("engine", &engine), ("lattice", lattice)])?;
+            let errors = own.points("cells_per_diameter", "error")?;
+            let errors: Vec<_> = errors.into_iter().map(|(d, error)| (d, error.abs())).collect();
+            if engine == EngineName::Reference.word() {
+                let fit = PowerLaw::fit(&errors)?;
+                let ends = (errors[0].0, errors[errors.len() - 1].0);
+                let label = format!("{lattice}, {engine}: fit of order {}", fit.order_words());
+                figure = figure.with(fit.series(label, ends).with_colour(colour));
+            }
+            figure = figure.with(found(lattice, &engine, errors, Some(colour)));
+        }
     }
-    Ok(vec![figure.note("7 to 14 cells per diameter, tau = 0.6"), convergence])
+    Ok(figure.note("solid fraction 0.343 (SC) and 0.216; two grids give an order without an error"))
 }

@@ -1,8 +1,10 @@
 //! A sphere that settles in a tank, against measured curves.
 
-use psmrt_report::{Axis, Figure, Series};
+use psmrt_report::Figure;
 
-use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use super::{
+    Bench, Case, CaseError, Claim, Golden, Table, ten_cate_figures, ten_cate_study as study,
+};
 
 /// Ten Cate's settling sphere.
 pub const CASE: Case = Case {
@@ -11,91 +13,84 @@ pub const CASE: Case = Case {
     about: &[
         "A sphere of 15 mm is let go in a tank of silicone oil, 100 x 100 x 160 mm; four oils give Reynolds \
          numbers of 1.5, 4.1, 11.6 and 31.9. Measured curves of velocity and gap, digitised to about 2 % of \
-         the largest velocity and 0.05 diameters. The spheres start and brake a little later than their \
-         clock says (0.03 to 0.2 s): the shift that fits the braking best is reported, not hidden.",
-        "These are falls of the full form, at 8, 12 and 16 cells per diameter (study.csv says which engine, \
-         falls.csv); `cargo test` repeats the fastest, and golden/ten_cate/scene.toml is that fall.",
+         the largest velocity and 0.05 diameters: these are the error bars. The experiment's own uncertainty is \
+         not in the data that we hold.",
+        "The quick form lets the sphere of Re 31.9 fall the whole way on 6 cells per diameter, on each engine. The falls \
+         of the study, at 8, 12 and 16 cells, are committed: study.csv says which engine made each, falls.csv holds \
+         their courses.",
+        "What does not agree: at Re 1.5 the sphere falls more slowly than measured, by 0.5, 2.9 and 3.7 % on the three grids \
+         and 4.8 % extrapolated, away from the measurement with each refinement; ten Cate's own lattice Boltzmann \
+         computation is 5.6 % below. And all measured spheres lag by 0.15 to 0.4 diameters, from the first points on, \
+         which stand at gaps of 8.1 to 8.2 where 8 was set, so that they seem to brake 0.03 to 0.2 s late.",
     ],
-    scenes: &[],
+    scenes: &["scene.toml"],
     literature: &["literature.csv", "curves.csv"],
-    rows: "study.csv",
-    units: "largest_velocity_m_s in m/s; delay_s in seconds; gap_offset and gap_rms in diameters; errors relative",
-    full: "cargo run --release --example ten_cate_study made these rows; hours, and it can be cut off",
+    rows: "expected.csv",
+    units: "time_s in seconds; gap_over_d in diameters; velocity_m_s in m/s, upwards",
+    full: "cargo run --release -- report --full --case ten_cate takes the 8 cells of scene.toml; cargo run --release --example ten_cate_study made study.csv and falls.csv (hours; it can be cut off)",
     measure,
     judge,
     draw,
 };
 
-const CASES: [(&str, &str); 4] = [("E1", "1.5"), ("E2", "4.1"), ("E3", "11.6"), ("E4", "31.9")];
+/// The experiments and their Reynolds numbers.
+pub(super) const EXPERIMENTS: [(&str, &str); 4] =
+    [("E1", "1.5"), ("E2", "4.1"), ("E3", "11.6"), ("E4", "31.9")];
 
-/// The quick form is the test `tests/ten_cate.rs`; here its committed full form is judged.
+/// The experiment of the scene.
+pub(super) const OWN: &str = "E4";
+
+/// Diameter, m, and half the width and the height of the tank in diameters.
+const SI_DIAMETER: f64 = 0.015;
+const HALF_WIDTH: f64 = 50.0 / 15.0;
+const HEIGHT: f64 = 160.0 / 15.0;
+
+/// Gap over the diameter at which a fall has ended.
+const TOUCHES: f64 = 0.004;
+
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
-    bench.literature(CASE.name, CASE.rows)
-}
-
-fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
-    let mut claims = Vec::new();
-    for (case, reynolds) in CASES {
-        let own = rows.with(&[("case", case)])?;
-        let published = golden.table("literature.csv")?.with(&[("case", case)])?;
-        let theirs =
-            published.number("umax_LBM_over_uinf")? / published.number("umax_exp_over_uinf")? - 1.0;
-        for (i, cells) in own.numbers("cells_per_diameter")?.into_iter().enumerate() {
-            claims.push(Claim {
-                what: format!("{case} (Re {reynolds}), {cells} cells: error of the largest velocity"),
-                measured: own.numbers("error_of_largest")?[i],
-                allowed: theirs.min(-0.03)..=0.03,
-                why: "measured to about 2 %; the drag of a sphere of 8 cells is within 3 % at these relaxation times. \
-                      Where ten Cate's own computation of the same fall lies further below the measurement (E1, \
-                      5.6 %), down to that: finer grids go there too",
-            });
-            claims.push(Claim {
-                what: format!("{case}, {cells} cells: velocity at the bottom, rms of the difference"),
-                measured: own.numbers("braking_rms")?[i],
-                allowed: 0.0..=0.05,
-                why: "of the largest velocity, after the shift in time; digitised to 2 %, steep there",
-            });
+    let cells = if bench.is_full() { 8.0 } else { 6.0 };
+    let [half, height] = [HALF_WIDTH, HEIGHT].map(|length| (length * cells).round());
+    let changes = [
+        format!("domain.dx={:e}", SI_DIAMETER / cells),
+        format!("domain.cells=[{half}, {half}, {height}]"),
+    ];
+    let (run, _) = bench.run("ten_cate/scene.toml", &changes)?;
+    let loads = run.record("sphere")?;
+    let (heights, velocities) = (loads.numbers("z (m)")?, loads.numbers("velocity_z (m/s)")?);
+    let mut table =
+        Table::new(&["engine", "cells_per_diameter", "time_s", "gap_over_d", "velocity_m_s"]);
+    for ((time, height), velocity) in loads.numbers("time (s)")?.iter().zip(heights).zip(velocities)
+    {
+        let gap = height / SI_DIAMETER - 0.5;
+        if gap <= TOUCHES {
+            break;
         }
+        table.add(vec![
+            bench.engine_name().word().to_owned(),
+            cells.to_string(),
+            format!("{time:.5}"),
+            format!("{gap:.5}"),
+            format!("{:.6}", -velocity),
+        ]);
     }
-    Ok(claims)
+    Ok(table)
 }
 
-fn draw(golden: &Golden, _: &Table) -> Result<Vec<Figure>, CaseError> {
-    let (curves, falls) = (golden.table("curves.csv")?, golden.table("falls.csv")?);
-    let mut velocity = Figure::new(
-        "Velocity of ten Cate's sphere",
-        Axis::linear("time since the release (s)").range(0.0, 4.5),
-        Axis::linear("velocity downwards (m/s)").range(0.0, 0.14),
-    );
-    for (colour, (case, reynolds)) in CASES.into_iter().enumerate() {
-        let measured = curves.with(&[("case", case), ("quantity", "velocity_m_s")])?;
-        let points = measured.points("t_s", "value")?.into_iter().map(|(t, v)| (t, v.abs()));
-        let series = Series::points(format!("Re {reynolds}, measured"), points.collect());
-        velocity = velocity.with(series.with_colour(colour));
-    }
-    let mut residuals = Vec::new();
-    for (colour, (case, reynolds)) in CASES.into_iter().enumerate() {
-        let own = falls.with(&[("case", case)])?;
-        let finest = own.values("cells_per_diameter")?.pop().unwrap_or_default();
-        let own = own.with(&[("cells_per_diameter", &finest)])?.points("time_s", "velocity_m_s")?;
-        let measured = curves.with(&[("case", case), ("quantity", "velocity_m_s")])?;
-        let measured: Vec<_> =
-            measured.points("t_s", "value")?.into_iter().map(|(t, v)| (t, v.abs())).collect();
-        let largest = measured.iter().map(|(_, v)| *v).fold(0.0, f64::max);
-        let off =
-            measured.iter().filter_map(|&(t, v)| Some((t, (interpolate(&own, t)? - v) / largest)));
-        residuals.push(Series::points(format!("Re {reynolds}, measured"), off.collect()));
-        let label = format!("Re {reynolds}, oracle, {finest} cells");
-        velocity = velocity.with(Series::line(label, own).with_colour(colour));
-    }
-    velocity =
-        velocity.with_panel(Axis::linear("computed - measured, over the largest").range(-0.6, 0.3));
-    for (colour, series) in residuals.into_iter().enumerate() {
-        velocity = velocity.with(series.with_colour(colour));
-    }
-    let note =
-        "finest grid of each; no shift in time: the measured spheres brake 0.03 to 0.2 s later";
-    Ok(vec![velocity.note(note)])
+/// The measured points of an experiment, velocities downwards.
+pub(super) fn measured(
+    curves: &Table,
+    case: &str,
+    quantity: &str,
+) -> Result<Vec<(f64, f64)>, CaseError> {
+    let own = curves.with(&[("case", case), ("quantity", quantity)])?.points("t_s", "value")?;
+    Ok(own.into_iter().map(|(time, value)| (time, value.abs())).collect())
+}
+
+/// Time and `computed - measured` at the measured points that the computed course reaches.
+pub(super) fn differences(computed: &[(f64, f64)], measured: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let off = |&(time, value): &(f64, f64)| Some((time, interpolate(computed, time)? - value));
+    measured.iter().filter_map(off).collect()
 }
 
 /// A curve at `x`, which lies between two of its points.
@@ -103,4 +98,40 @@ fn interpolate(curve: &[(f64, f64)], x: f64) -> Option<f64> {
     let pair = curve.windows(2).find(|pair| pair[0].0 <= x && x <= pair[1].0)?;
     let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
     Some(y0 + (y1 - y0) * (x - x0) / (x1 - x0))
+}
+
+fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
+    let (published, curves) = (golden.table("literature.csv")?, golden.table("curves.csv")?);
+    let largest = published.with(&[("case", OWN)])?.number("umax_exp_m_s")?;
+    let measured = measured(&curves, OWN, "velocity_m_s")?;
+    let mut claims = Vec::new();
+    for engine in rows.values("engine")? {
+        let own = rows.with(&[("engine", &engine)])?;
+        let course = own.points("time_s", "velocity_m_s")?;
+        let fastest = course.iter().map(|point| point.1).fold(0.0, f64::max);
+        claims.push(Claim {
+            what: format!("{engine}: {OWN} (Re 31.9): error of the largest velocity"),
+            measured: fastest / largest - 1.0,
+            allowed: -0.03..=0.03,
+            why: "measured; the velocity of the published curve and its largest value differ by 0.5 %, digitised to 2 %. A \
+                  sphere of 6 cells in a stream of Re 30 has the drag of one of 8 within 0.1 %, both 2 % too much \
+                  (golden/sphere_drag/study.csv), which is 1 % of the velocity",
+        });
+        // Below a gap of one diameter it brakes.
+        let above = own.numbers("gap_over_d")?.iter().filter(|gap| **gap >= 1.0).count();
+        let off = differences(&course[..above], &measured);
+        let squares = off.iter().map(|point| point.1.powi(2)).sum::<f64>();
+        claims.push(Claim {
+            what: format!("{engine}: {OWN}: velocity above a gap of one diameter, rms of the difference over the largest"),
+            measured: (squares / off.len() as f64).sqrt() / largest,
+            allowed: 0.0..=0.05,
+            why: study::VELOCITY,
+        });
+    }
+    claims.extend(study::claims(&golden.table("study.csv")?, &published)?);
+    Ok(claims)
+}
+
+fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
+    ten_cate_figures::all(golden, rows)
 }
