@@ -2,7 +2,7 @@
 
 use super::sphere_drag_others as others;
 use super::twins::{twins_claim, without_twins};
-use super::{CaseError, Claim, Stream, Table};
+use super::{CaseError, Claim, Stream, Table, steadiness};
 
 /// What tells a run from all others.
 const RUN: &[&str] = Stream::COLUMNS.split_at(6).0;
@@ -218,7 +218,7 @@ pub fn claims(
     open: impl Fn(&str) -> Result<f64, CaseError>,
 ) -> Result<Vec<Claim>, CaseError> {
     let missing = |what: &str| CaseError::Table(format!("study.csv lacks {what}"));
-    let mut claims = vec![twins_claim(study, RUN, "CD")?];
+    let mut claims = vec![twins_claim(study, RUN, "CD")?, steadiness::of_study(study)?];
     for varied in VARIED {
         let reynolds = varied.reynolds;
         let grids = varied.grids(study)?;

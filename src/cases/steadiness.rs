@@ -44,7 +44,7 @@ impl Settled {
 const WINDOW: usize = 5;
 
 /// Change over the last window, and what is still to go; `None` of fewer than three values.
-fn drift(values: &[f64]) -> Option<(f64, f64)> {
+pub(super) fn drift(values: &[f64]) -> Option<(f64, f64)> {
     let &[.., before, last, now] = values else { return None };
     let change = ((now - last) / now).abs();
     let ratio = (now - last) / (last - before);
