@@ -14,9 +14,9 @@ pub struct Settled {
     pub tolerance: f64,
     /// Relative change over the last window, from one row to the next.
     pub change: f64,
-    /// What is still to go, relative: if successive changes go on falling at their last ratio, their sum.
-    /// Where they go one way and do not fall, what they add up to in as many rows again as there are; where
-    /// they go to and fro, how far the last rows lie from the last one.
+    /// What is still to go, relative: the sum of as many changes again as there are rows, if they go on falling
+    /// at their last ratio, or stay as they are where they go one way and do not fall. Where they go to and
+    /// fro, how far the last rows lie from the last one.
     pub left: f64,
 }
 
@@ -39,9 +39,9 @@ impl Settled {
     }
 }
 
-/// As many of the last values tell a flow that creeps from one that swings, or from rounding: chance gives
-/// four changes of one sign once in eight times.
-const WINDOW: usize = 5;
+/// The values whose changes the criterion has looked at. They tell a flow that creeps from one that swings, or
+/// from rounding: chance gives three changes of one sign once in four times.
+const WINDOW: usize = 4;
 
 /// Change over the last window, and what is still to go; `None` of fewer than three values.
 pub(super) fn drift(values: &[f64]) -> Option<(f64, f64)> {
@@ -50,11 +50,12 @@ pub(super) fn drift(values: &[f64]) -> Option<(f64, f64)> {
     let ratio = (now - last) / (last - before);
     let window = &values[values.len().saturating_sub(WINDOW)..];
     let one_way = window.windows(2).all(|pair| (pair[1] - pair[0]) * (now - last) > 0.0);
+    let rows = i32::try_from(values.len()).unwrap_or(i32::MAX);
     let left = if ratio > 0.0 && ratio < 1.0 {
-        // c (r + r² + ...) = c r/(1 - r)
-        change * ratio / (1.0 - ratio)
+        // c (r + r² + ... + rⁿ)
+        change * ratio * (1.0 - ratio.powi(rows)) / (1.0 - ratio)
     } else if one_way {
-        change * values.len() as f64
+        change * f64::from(rows)
     } else {
         window.iter().map(|value| ((now - value) / now).abs()).fold(0.0, f64::max)
     };
