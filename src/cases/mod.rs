@@ -28,6 +28,7 @@ mod sphere_drag_figures;
 mod sphere_drag_others;
 mod sphere_drag_study;
 mod stability;
+mod stability_figures;
 mod steadiness;
 mod stokes_settling;
 mod stream;
