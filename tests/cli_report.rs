@@ -16,11 +16,11 @@ fn links(html: &str) -> Vec<&str> {
 #[test]
 fn the_folder_of_a_report_holds_all_that_its_page_links_and_says_where_it_comes_from() {
     let temp = tempfile::tempdir().unwrap();
-    let mut budget = Budget::oracle(6_000_000);
-    budget.spend(6_000_000); // the duct, as in tests/acceptance.rs
+    let mut budget = Budget::oracle(2_800_000);
+    budget.spend(2_800_000); // of poiseuille, as in tests/acceptance.rs
     let mut command = Command::new(env!("CARGO_BIN_EXE_psmrt"));
     command.current_dir(env!("CARGO_MANIFEST_DIR")).args(["report", "--oracle-only"]);
-    for case in ["duct", "ten_cate", "tradeoff"] {
+    for case in ["poiseuille", "stability", "tradeoff"] {
         command.args(["--case", case]);
     }
     let output = command.arg("--out").arg(temp.path()).output().unwrap();
@@ -33,19 +33,18 @@ fn the_folder_of_a_report_holds_all_that_its_page_links_and_says_where_it_comes_
         assert!(is_there, "the page links {link}, which is not there");
     }
     for link in [
-        "duct.csv",
-        "duct_1.svg",
-        "data/duct/scene.toml",
-        "data/duct/literature.csv",
-        "data/ten_cate/scene.toml",
-        "data/ten_cate/study.csv",
-        "data/ten_cate/falls.csv",
+        "poiseuille.csv",
+        "poiseuille_1.svg",
+        "data/poiseuille/scene.toml",
+        "data/poiseuille/bounceback_wall.csv",
+        "data/stability/movers.csv",
+        "data/stability/bed_inlet.csv",
         "data/tradeoff/sweep.csv",
     ] {
         assert!(found.contains(&link), "no link to {link} in {found:?}");
     }
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
-    for copy in ["ten_cate/falls.csv", "duct/scene.toml"] {
+    for copy in ["stability/movers.csv", "poiseuille/scene.toml"] {
         let same = fs::read(golden.join(copy)).unwrap();
         assert!(fs::read(temp.path().join("data").join(copy)).unwrap() == same, "{copy}");
     }
@@ -55,11 +54,13 @@ fn the_folder_of_a_report_holds_all_that_its_page_links_and_says_where_it_comes_
         let text = fs::read_to_string(temp.path().join(name)).unwrap();
         text.lines().filter(|line| line.starts_with('#')).collect::<Vec<_>>().join("\n")
     };
-    let (duct, tradeoff) = (head("duct.csv"), head("tradeoff.csv"));
-    for part in
-        ["report --case duct --oracle-only, at ", "quick scale; engines: reference", "# Units: "]
-    {
-        assert!(duct.contains(part), "{part}: {duct}");
+    let (poiseuille, tradeoff) = (head("poiseuille.csv"), head("tradeoff.csv"));
+    for part in [
+        "report --case poiseuille --oracle-only, at ",
+        "quick scale; engines: reference",
+        "# Units: ",
+    ] {
+        assert!(poiseuille.contains(part), "{part}: {poiseuille}");
     }
     assert!(
         tradeoff.contains("Read, not computed, by: ")

@@ -98,9 +98,9 @@ pub(super) fn of_study(study: &Table) -> Result<Claim, CaseError> {
     Ok(Claim {
         what: "study: steady rows: what was still to go, relative, at most".to_owned(),
         measured: left.into_iter().reduce(f64::max).unwrap_or(f64::NAN),
-        allowed: 0.0..=1e-3,
-        why: "ten times what its criterion lets the value change from row to row at most; a tenth of what any claim about \
-              the study allows",
+        allowed: 0.0..=2e-3,
+        why: "a tenth of what most claims about the study allow, a fifth of the narrowest, 1 %; not less, since in fast flow \
+              at small viscosity full cells gather mass (reference/ERRATA.md) and it creeps on for ever",
     })
 }
 
