@@ -25,7 +25,7 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
     let schiller = law("CD_Schiller_Naumann")?;
     let mut all = Vec::new();
     for engine in rows.values("engine")? {
-        let own = rows.with(&[("engine", &engine), ("collision", "mrt")])?;
+        let own = rows.with(&[("engine", &engine), ("collision", "mrt"), ("outcome", "steady")])?;
         let own = own.with(&[("cells_per_diameter", "6")])?;
         all.push(found("6 cells", &engine, own.points("Re", "CD")?, None));
     }

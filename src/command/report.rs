@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use clap::Args;
-use psmrt_report::{Appendix, DataTable, Page, Section, Verdict, render_page};
+use psmrt_report::{Appendix, DataTable, Figure, Page, Section, Verdict, render_page, render_svg};
 use serde_json::json;
 
 use super::environment::environment;
@@ -191,13 +191,13 @@ fn fill(
     }
     let mut claims = (case.judge)(&golden, &rows)?;
     claims.extend(steady);
-    let figures = (case.draw)(&golden, &rows)?;
+    let (figures, undrawn) = drawable((case.draw)(&golden, &rows)?);
     section.data.push(measured(case, &rows, &read, request)?);
     read.extend(golden.tables_read());
     read.extend(case.literature.iter().map(|&file| file.to_owned()));
     section.data.extend(copies(case, read.iter().map(String::as_str), request)?);
     section.data.extend(report_files::figures(case, &figures, &request.out)?);
-    section.verdicts = claims.iter().map(verdict).collect();
+    section.verdicts = claims.iter().map(verdict).chain(undrawn).collect();
     section.figures = figures;
     section.tables = [("What was measured", rows), ("How steady the runs were", settled)]
         .into_iter()
@@ -219,6 +219,25 @@ fn settled_row(engine: &str, run: &Settled) -> Vec<String> {
     let Settled { run, steps, tolerance, change, left } = run;
     let numbers = [tolerance, change, left].map(|value| format!("{value:.1e}"));
     [vec![engine.to_owned(), run.clone(), steps.to_string()], numbers.to_vec()].concat()
+}
+
+/// The figures that can be drawn, and a red verdict for each that cannot: results that are badly wrong, such as
+/// a drag of 0 on a logarithmic axis, must not take the page with them.
+fn drawable(figures: Vec<Figure>) -> (Vec<Figure>, Vec<Verdict>) {
+    let (mut drawn, mut undrawn) = (Vec::new(), Vec::new());
+    for figure in figures {
+        match render_svg(&figure) {
+            Ok(_) => drawn.push(figure),
+            Err(error) => undrawn.push(Verdict {
+                claim: format!("the figure {:?} can be drawn", figure.title),
+                measured: error.to_string(),
+                allowed: "every point has a place on its axes".to_owned(),
+                why: "a figure without what was found would hide it".to_owned(),
+                holds: false,
+            }),
+        }
+    }
+    (drawn, undrawn)
 }
 
 /// The verdict on a case that could not be measured: red, with the reason.
@@ -297,5 +316,24 @@ fn open(index: &Path) {
     };
     if let Err(error) = std::process::Command::new(program).arg(index).spawn() {
         eprintln!("the page cannot be opened with {program}: {error}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::drawable;
+    use psmrt_report::{Axis, Figure, Series};
+
+    #[test]
+    fn a_figure_that_cannot_be_drawn_is_a_red_verdict_and_the_others_stay() {
+        let figure = |title: &str, y: f64| {
+            let empty = Figure::new(title, Axis::linear("Re"), Axis::log("C_D"));
+            empty.with(Series::points("found", vec![(1.0, 1.0), (2.0, y)]))
+        };
+        let (drawn, undrawn) = drawable(vec![figure("good", 2.0), figure("bad", 0.0)]);
+        assert_eq!(drawn.len(), 1);
+        assert_eq!(drawn[0].title, "good");
+        assert_eq!(undrawn.len(), 1);
+        assert!(!undrawn[0].holds && undrawn[0].claim.contains("bad"), "{}", undrawn[0].claim);
     }
 }
