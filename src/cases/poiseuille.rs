@@ -93,6 +93,10 @@ fn row(
         "stop.time=200.0".to_owned(),
         format!("stop.steady.tolerance={:e}", quiet(bench.engine_name())),
     ];
+    // A row sees the slowest disturbance fall, which takes as long as the square of the width.
+    if cells > 32 {
+        all.push(format!("records[0].every_steps={}", 500 * (cells / 32).pow(2)));
+    }
     // scene.toml has the magic rates already.
     let scene = if rates == "magic" { "scene.toml" } else { "dhumieres.toml" };
     if rates == "srt" {
