@@ -5,10 +5,12 @@ use std::f64::consts::PI;
 use psmrt_reference::coupling::{Gravity, InternalFluid};
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::hold::DEEPEST;
 use psmrt_reference::grains::motion::Substeps;
 use psmrt_reference::lattice::{Vec3, viscosity};
 
 use super::{Number, Warning, number};
+use crate::scene::check::hardness::{Burden, Overlaps};
 use crate::scene::{FreePart, Scene};
 
 /// A grain pressed in by more than this share of its diameter is no hard sphere any more.
@@ -19,8 +21,8 @@ const DEEP: f64 = 0.01;
 /// golden/stability/movers.csv.
 const LIGHT: f64 = 0.8;
 
-/// Contacts shorter than so many time steps are over before the fluid takes part.
-const BRIEF: f64 = 4.0;
+/// An impact that goes deeper, in diameters, is soft.
+const DEEP_IMPACT: f64 = 0.1;
 
 /// More sub-steps than this in a time step begin to cost as much as the fluid.
 const MANY: u32 = 100;
@@ -54,19 +56,11 @@ pub(super) fn stokes_velocity(scene: &Scene) -> f64 {
     free(part).map(velocity).fold(0.0, f64::max)
 }
 
-/// How deep weight presses a grain into the floor, in its diameters: alone, and under all others.
-fn overlaps(scene: &Scene, part: &FreePart) -> [f64; 2] {
-    let stiffness = part.setup.law.stiffness;
-    let depth = |grain: &Grain| buoyant_weight(part, grain) / (stiffness * 2.0 * grain.radius);
-    let alone = free(part).map(depth).fold(0.0, f64::max);
-    // The weight of all, spread over the area that gravity sees: on a grain of diameter d its d².
-    let g = pull(part);
-    let along = (0..3).max_by(|&a, &b| g[a].abs().total_cmp(&g[b].abs())).unwrap_or(2);
-    let cells = scene.setup.domain.cells().map(|n| n as f64);
-    let area: f64 = (0..3).filter(|&axis| axis != along).map(|axis| cells[axis]).product();
-    let weight: f64 = free(part).map(|grain| buoyant_weight(part, grain)).sum();
-    let diameter = free(part).map(|grain| 2.0 * grain.radius).fold(0.0, f64::max);
-    [alone, alone.max(weight / area * diameter / stiffness)]
+/// How deep weight and impacts press grains into each other, in diameters.
+pub(crate) fn overlaps(scene: &Scene, part: &FreePart) -> Overlaps {
+    let nu = viscosity(scene.setup.collision.tau());
+    let burden = Burden::new(&part.grains, &pull(part), &scene.setup.domain, nu);
+    burden.overlaps(part.setup.law.stiffness)
 }
 
 /// The derived numbers.
@@ -102,11 +96,15 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")),
     ];
     if settle > 0.0 {
-        let [alone, under] = overlaps(scene, part);
+        let Overlaps { in_bed, one_on_one, in_impact } = overlaps(scene, part);
         let note = format!("{settle:.2e} cells per time step; of the fastest grain, alone");
         numbers.push(number("Stokes velocity", settle * units.si_velocity(), "m/s", note));
-        let note = format!("of a diameter, by its weight; {under:.1e} under all others");
-        numbers.push(number("overlap", alone, "", note));
+        let note = "of a diameter: the heaviest grain at rest on the smallest";
+        numbers.push(number("overlap", one_on_one, "", note));
+        let note = "of a diameter: the mean, at the bottom of a bed of all free grains";
+        numbers.push(number("overlap in a bed", in_bed, "", note));
+        let note = "of the smallest diameter: the heaviest grain falls on the smallest";
+        numbers.push(number("overlap of impact", in_impact, "", note));
     }
     numbers
 }
@@ -194,25 +192,46 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         );
         warn(reason, "use denser grains: psmrt has no scheme for light ones");
     }
-    let [_, under] = overlaps(scene, part);
-    if under > DEEP {
-        let reason = format!("weight presses grains into each other by {under:.1e} of a diameter");
-        warn(reason, "make contacts shorter (contact.duration) or stiffer (contact.stiffness)");
-    }
-    let pair = 0.5 * free(part).map(|grain| grain.mass).fold(f64::INFINITY, f64::min);
-    let duration = part.setup.law.duration(pair);
-    if duration < BRIEF {
-        let reason = format!(
-            "contacts last {duration:.1} time steps: the load of the fluid is held during \
-                              a step, and it hardly takes part"
-        );
-        warn(reason, "make contacts last 10 time steps (contact.duration)");
+    if let Some((reason, remedy)) = softness(scene, part) {
+        warn(reason, &remedy);
     }
     if let Some(count) = part.substeps().ok().filter(|&count| count > MANY) {
         let reason = format!(
-            "the grains make {count} sub-steps in a time step: they cost more than the fluid"
+            "the grains make {count} sub-steps in a time step: they may cost more than the fluid"
         );
-        warn(reason, "make contacts last longer (contact.duration), 10 time steps are usual");
+        warn(reason, "see the time below; a shorter time step or longer contacts (contact.duration) take fewer");
     }
     warnings
+}
+
+/// What happens to grains whose contacts are too soft, and what to do.
+fn softness(scene: &Scene, part: &FreePart) -> Option<(String, String)> {
+    let Overlaps { in_bed, one_on_one, in_impact } = overlaps(scene, part);
+    let rest = in_bed.max(one_on_one);
+    // Deepest overlap over the radius, here over the diameter.
+    let lost = 0.5 * DEEPEST;
+    let reason = if rest > lost {
+        format!(
+            "weight presses grains into each other or a face by {rest:.1e} of a diameter: contacts do not hold them, and \
+             the run stops when one is {lost} of its diameter deep"
+        )
+    } else if rest > DEEP {
+        format!("weight presses grains into each other by {rest:.1e} of a diameter")
+    } else if in_impact > lost {
+        format!(
+            "a grain that falls on another or on the floor overlaps it by {in_impact:.1e} of a diameter: the run stops \
+             at {lost}"
+        )
+    } else if in_impact > DEEP_IMPACT {
+        format!("a grain that falls on another overlaps it by {in_impact:.1e} of a diameter")
+    } else {
+        return None;
+    };
+    let nu = viscosity(scene.setup.collision.tau());
+    let asked = Burden::new(&part.grains, &pull(part), &scene.setup.domain, nu).stiffness();
+    let remedy = format!(
+        "leave `stiffness` and `duration` of [contact] out to have them chosen, or use contact.stiffness = {:.2e} N/m",
+        1.01 * asked * scene.units.si_stiffness()
+    );
+    Some((reason, remedy))
 }
