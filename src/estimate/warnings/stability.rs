@@ -3,8 +3,9 @@
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
 
-use super::spheres::solid_fraction;
-use super::{Warning, diameters, si_velocity};
+use super::warning;
+use crate::estimate::spheres::solid_fraction;
+use crate::estimate::{Warning, diameters, si_velocity};
 use crate::scene::Scene;
 use crate::stability::Model;
 use crate::stability::limits::Measured;
@@ -55,7 +56,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
                  a smaller velocity"
             .to_owned(),
     };
-    vec![Warning { reason, remedy }]
+    vec![warning(reason, remedy)]
 }
 
 /// The superficial velocity through a bed, cells per step, and where it comes from: that of an inlet, or
