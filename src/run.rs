@@ -7,10 +7,12 @@ use std::time::Instant;
 use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
+use crate::courses::Lookout;
 use crate::engine::{Engine, EngineStop};
 use crate::output::grain_means;
 use crate::output::records::{Recorder, box_row, force_row};
 use crate::scene::{Interval, Rhythm, Scene, Steady, What};
+use crate::stopped_grain::{self, GrainStop};
 
 /// A run that could not go on.
 #[derive(Debug, Error)]
@@ -18,6 +20,17 @@ pub enum RunError {
     /// The guard has stopped it, a free grain cannot be moved, or the device has failed.
     #[error(transparent)]
     Stopped(#[from] EngineStop),
+    /// A contact has not held a free grain, or a grain is nowhere.
+    #[error(transparent)]
+    Grain(#[from] Box<GrainStop>),
+    /// The way of a prescribed sphere has ended.
+    #[error("stopped: {said}\n  help: {remedy}")]
+    Met {
+        /// What it has run into.
+        said: String,
+        /// What to do.
+        remedy: String,
+    },
     /// Its results cannot be written.
     #[error("results cannot be written: {0}; what was written before is whole")]
     Write(#[from] io::Error),
@@ -68,7 +81,7 @@ pub fn run(
     resumed: Option<&Progress>,
     watcher: &mut dyn Watcher,
 ) -> Result<End, RunError> {
-    let mut run = Run::begin(scene, folder, resumed)?;
+    let mut run = Run::begin(scene, folder, resumed, engine.steps())?;
     if resumed.is_none() {
         run.observe(engine)?;
     }
@@ -89,7 +102,7 @@ pub fn run(
         if !go_on {
             break End::Interrupted;
         }
-        engine.step(run.next_event(now) - now)?;
+        run.advance(engine)?;
         run.observe(engine)?;
         engine.still_works()?;
     };
@@ -121,10 +134,16 @@ struct Run<'a> {
     folder: &'a Path,
     recorders: Vec<Recorder>,
     quiet: Option<Quiet>,
+    lookout: Lookout,
 }
 
 impl<'a> Run<'a> {
-    fn begin(scene: &'a Scene, folder: &'a Path, resumed: Option<&Progress>) -> io::Result<Self> {
+    fn begin(
+        scene: &'a Scene,
+        folder: &'a Path,
+        resumed: Option<&Progress>,
+        start: u64,
+    ) -> io::Result<Self> {
         let recorder = |(number, record)| match resumed {
             None => Recorder::create(record, folder),
             Some(progress) => {
@@ -135,7 +154,28 @@ impl<'a> Run<'a> {
         let recorders =
             scene.records.iter().enumerate().map(recorder).collect::<io::Result<Vec<_>>>()?;
         let quiet = scene.stop.steady.clone().map(|steady| Quiet::begin(steady, resumed));
-        Ok(Run { scene, folder, recorders, quiet })
+        let lookout = Lookout::new(scene, start);
+        Ok(Run { scene, folder, recorders, quiet, lookout })
+    }
+
+    /// Steps to the next event. Errors where the state breaks or a prescribed sphere's way ends: then
+    /// nothing more is recorded.
+    fn advance(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+        let now = engine.steps();
+        let event = self.next_event(now);
+        let meeting = self.lookout.meeting_until(event, u64::MAX);
+        let until = meeting.map_or(event, |meeting| meeting.step);
+        if let Err(stop) = engine.step(until - now) {
+            let grain = stopped_grain::explained(&stop, self.scene, engine);
+            return Err(grain.map_or(RunError::Stopped(stop), |stop| Box::new(stop).into()));
+        }
+        match meeting {
+            None => Ok(()),
+            Some(meeting) => Err(RunError::Met {
+                said: meeting.said(self.scene),
+                remedy: meeting.remedy(self.scene),
+            }),
+        }
     }
 
     /// Takes the records that are due now. Errors if the state is broken: it is not written.

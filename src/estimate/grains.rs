@@ -5,27 +5,12 @@ use std::f64::consts::PI;
 use psmrt_reference::coupling::{Gravity, InternalFluid};
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
-use psmrt_reference::grains::hold::DEEPEST;
 use psmrt_reference::grains::motion::Substeps;
 use psmrt_reference::lattice::{Vec3, viscosity};
 
-use super::{Number, Warning, number};
+use super::{Number, number};
 use crate::scene::check::hardness::{Burden, Overlaps};
 use crate::scene::{FreePart, Scene};
-
-/// A grain pressed in by more than this share of its diameter is no hard sphere any more.
-const DEEP: f64 = 0.01;
-
-/// Smallest density ratio that was right with the inertia of the fluid inside given back a step later, and
-/// kept, at tau up to 1; the next smaller that was tried, 0.5, broke at tau of 0.6 and more either way:
-/// golden/stability/movers.csv.
-const LIGHT: f64 = 0.8;
-
-/// An impact that goes deeper, in diameters, is soft.
-const DEEP_IMPACT: f64 = 0.1;
-
-/// More sub-steps than this in a time step begin to cost as much as the fluid.
-const MANY: u32 = 100;
 
 /// Gravity, and what of a grain's mass it acts on.
 fn pull(part: &FreePart) -> Vec3 {
@@ -42,7 +27,8 @@ fn buoyant_weight(part: &FreePart, grain: &Grain) -> f64 {
     (grain.mass - sphere_volume(grain.radius)).abs() * pull(part).norm()
 }
 
-fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
+/// The grains that move.
+pub(super) fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
     part.grains.iter().filter(|grain| !grain.held)
 }
 
@@ -56,11 +42,10 @@ pub(super) fn stokes_velocity(scene: &Scene) -> f64 {
     free(part).map(velocity).fold(0.0, f64::max)
 }
 
-/// How deep weight and impacts press grains into each other, in diameters.
-pub(crate) fn overlaps(scene: &Scene, part: &FreePart) -> Overlaps {
+/// What weight and impacts do to the contacts.
+pub(super) fn burden(scene: &Scene, part: &FreePart) -> Burden {
     let nu = viscosity(scene.setup.collision.tau());
-    let burden = Burden::new(&part.grains, &pull(part), &scene.setup.domain, nu);
-    burden.overlaps(part.setup.law.stiffness)
+    Burden::new(&part.grains, &pull(part), &scene.setup.domain, nu)
 }
 
 /// The derived numbers.
@@ -96,7 +81,8 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")),
     ];
     if settle > 0.0 {
-        let Overlaps { in_bed, one_on_one, in_impact } = overlaps(scene, part);
+        let Overlaps { in_bed, one_on_one, in_impact } =
+            burden(scene, part).overlaps(law.stiffness);
         let note = format!("{settle:.2e} cells per time step; of the fastest grain, alone");
         numbers.push(number("Stokes velocity", settle * units.si_velocity(), "m/s", note));
         let note = "of a diameter: the heaviest grain at rest on the smallest";
@@ -164,74 +150,4 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
 
 fn is_sieve(face: &Face) -> bool {
     matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow | Face::Pressure { .. })
-}
-
-/// What looks risky.
-pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
-    let Some(part) = &scene.free else { return Vec::new() };
-    let mut warnings = Vec::new();
-    let mut warn = |reason: String, remedy: &str| {
-        warnings.push(Warning { reason, remedy: remedy.to_owned() });
-    };
-    if let Some(Gravity::OnFluidToo { .. }) = part.settings.gravity {
-        let reason = "gravity as a body force: the fluid displaced is the sum of the weights B, so that \
-                      the buoyancy is only 58, 80 and 92 % of V g at 4, 8 and 16 cells per diameter";
-        warn(reason.to_owned(), "use `form = \"reduced\"`, with which hydrostatics is exact");
-    } else if scene.setup.body_force.is_some() {
-        let reason = "a body force on the fluid does not push the grains as the pressure gradient that \
-                      it stands for would: they lack V grad p";
-        warn(reason.to_owned(), "drive the flow by pressure faces, or add the force to [gravity]");
-    }
-    let lightest = free(part)
-        .map(|grain| grain.mass / (part.settings.fluid_density * sphere_volume(grain.radius)))
-        .fold(f64::INFINITY, f64::min);
-    if lightest < LIGHT {
-        let reason = format!(
-            "a grain of {lightest:.2} times the density of the fluid: grains lighter than {LIGHT} times were driven \
-             by the inertia of the fluid inside until the run broke (golden/stability/movers.csv)"
-        );
-        warn(reason, "use denser grains: psmrt has no scheme for light ones");
-    }
-    if let Some((reason, remedy)) = softness(scene, part) {
-        warn(reason, &remedy);
-    }
-    if let Some(count) = part.substeps().ok().filter(|&count| count > MANY) {
-        let reason = format!(
-            "the grains make {count} sub-steps in a time step: they may cost more than the fluid"
-        );
-        warn(reason, "see the time below; a shorter time step or longer contacts (contact.duration) take fewer");
-    }
-    warnings
-}
-
-/// What happens to grains whose contacts are too soft, and what to do.
-fn softness(scene: &Scene, part: &FreePart) -> Option<(String, String)> {
-    let Overlaps { in_bed, one_on_one, in_impact } = overlaps(scene, part);
-    let rest = in_bed.max(one_on_one);
-    // Deepest overlap over the radius, here over the diameter.
-    let lost = 0.5 * DEEPEST;
-    let reason = if rest > lost {
-        format!(
-            "weight presses grains into each other or a face by {rest:.1e} of a diameter: contacts do not hold them, and \
-             the run stops when one is {lost} of its diameter deep"
-        )
-    } else if rest > DEEP {
-        format!("weight presses grains into each other by {rest:.1e} of a diameter")
-    } else if in_impact > lost {
-        format!(
-            "a grain that falls on another or on the floor overlaps it by {in_impact:.1e} of a diameter: the run stops \
-             at {lost}"
-        )
-    } else if in_impact > DEEP_IMPACT {
-        format!("a grain that falls on another overlaps it by {in_impact:.1e} of a diameter")
-    } else {
-        return None;
-    };
-    let nu = viscosity(scene.setup.collision.tau());
-    let asked = Burden::new(&part.grains, &pull(part), &scene.setup.domain, nu).stiffness();
-    let remedy = format!(
-        "leave `stiffness` and `duration` of [contact] out to have them chosen, or use contact.stiffness = {:.2e} N/m",
-        1.01 * asked * scene.units.si_stiffness()
-    );
-    Some((reason, remedy))
 }

@@ -55,6 +55,13 @@ pub fn deepest(system: &GrainSystem) -> Option<Sunk> {
     too_deep.max_by(|one, two| one.depth().total_cmp(&two.depth()))
 }
 
+/// Where a grain lies deepest, however deep, if anything is near it.
+pub fn deepest_of(system: &GrainSystem, grain: usize) -> Option<Sunk> {
+    let found = at_planes(system).chain(among_grains(system));
+    let own = found.filter(|sunk| sunk.grain == grain || sunk.obstacle == Obstacle::Grain(grain));
+    own.max_by(|one, two| one.depth().total_cmp(&two.depth()))
+}
+
 /// All free grains at all planes, however far.
 fn at_planes(system: &GrainSystem) -> impl Iterator<Item = Sunk> {
     let free = system.grains().iter().enumerate().filter(|(_, grain)| !grain.held);

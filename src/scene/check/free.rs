@@ -155,7 +155,7 @@ fn gravity(section: &GravitySection, units: &Units) -> Result<Gravity, Trouble> 
 }
 
 /// The acceleration of either form.
-pub(super) fn acceleration(gravity: &Gravity) -> Vec3 {
+pub(crate) fn acceleration(gravity: &Gravity) -> Vec3 {
     match *gravity {
         Gravity::Reduced { acceleration } | Gravity::OnFluidToo { acceleration } => acceleration,
     }

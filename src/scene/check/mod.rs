@@ -16,7 +16,7 @@ pub mod grains;
 pub(crate) mod hardness;
 mod lubrication;
 mod mirrors;
-mod neighbours;
+pub(crate) mod neighbours;
 mod numbers;
 pub mod records;
 mod solid;
