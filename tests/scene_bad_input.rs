@@ -352,7 +352,7 @@ fn wrong_changes_on_the_command_line_are_refused() {
         ("records[0x]=5", "is no key"),
         ("records[-1].name=a", "is no key"),
         ("grains[0]={ kind = \"sphere\" }", "grains[0].centre"),
-        ("grains[0].diameter.x=1", "no such section"),
+        ("grains[0].diameter.x=1", "no such key"),
         ("records={ name = \"z\", kind = \"box\" }", "write [[records]]"),
         ("grains=5", "write [[grains]]"),
         ("domain.cells=[8, 8, 8, 99]", "4 are given"),

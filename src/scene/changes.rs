@@ -97,7 +97,8 @@ fn put(root: &mut Item, path: &Path, value: Value) -> Result<(), (String, String
     *slot = match value {
         Value::InlineTable(table) if in_sections => Item::Table(table.into_table()),
         _ if in_sections => {
-            let remedy = "set one of its keys, as in grains[0].diameter=1e-4, or write {key = value, ...}";
+            let remedy =
+                "set one of its keys, as in grains[0].diameter=1e-4, or write {key = value, ...}";
             return Err(bad("that is a section, not a value", remedy));
         }
         value => Item::Value(value),

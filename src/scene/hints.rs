@@ -95,9 +95,7 @@ fn another_quantity(
             let kinematic = given.zip(density).map(|(dynamic, density)| dynamic / density);
             let write = written("kinematic_viscosity", kinematic, "m2/s");
             let doubt = if name == "viscosity" { "if it is the dynamic one (Pa s), " } else { "" };
-            Some(format!(
-                "{doubt}divide by the density: kinematic = dynamic / density; {write}"
-            ))
+            Some(format!("{doubt}divide by the density: kinematic = dynamic / density; {write}"))
         }
         "radius" if has("diameter") => {
             let write = written("diameter", given.map(|radius| 2.0 * radius), "m");

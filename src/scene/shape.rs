@@ -193,12 +193,7 @@ fn is_toml_number(text: &str) -> bool {
     matches!(text.parse::<Value>(), Ok(Value::Integer(_) | Value::Float(_)))
 }
 
-fn word(
-    found: &str,
-    known: &[&str],
-    key: &str,
-    span: Option<Range<usize>>,
-) -> Result<(), Misfit> {
+fn word(found: &str, known: &[&str], key: &str, span: Option<Range<usize>>) -> Result<(), Misfit> {
     if known.contains(&found) {
         return Ok(());
     }

@@ -93,6 +93,9 @@ impl SceneError {
                     .path(&self.file)
                     .annotation(AnnotationKind::Primary.span(span.clone())),
             ),
+            None if self.file.starts_with("--") => {
+                group.element(Level::NOTE.message(format!("on the command line, {}", self.file)))
+            }
             None => group.element(Level::NOTE.message(format!("in the scene file {}", self.file))),
         };
         renderer.render(&[group.element(Level::HELP.message(quote::lines(&self.remedy)))])
