@@ -210,7 +210,8 @@ impl Lookout {
     /// Looks for meetings of pairs in the next window.
     fn look(&mut self, reach: f64) {
         let now = self.known as f64;
-        let moved = |grain: &Grain| Grain { position: grain.position + now * grain.velocity, ..*grain };
+        let moved =
+            |grain: &Grain| Grain { position: grain.position + now * grain.velocity, ..*grain };
         let grains: Vec<Grain> = self.grains.iter().map(moved).collect();
         let end = self.known.saturating_add(self.window);
         let meet = |pair: psmrt_reference::grains::neighbours::Candidate| {

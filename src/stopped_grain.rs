@@ -41,7 +41,11 @@ impl fmt::Display for GrainStop {
 }
 
 /// The stop in SI units if a free grain is to blame.
-pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &dyn Engine) -> Option<GrainStop> {
+pub(crate) fn explained(
+    stop: &EngineStop,
+    scene: &Scene,
+    engine: &dyn Engine,
+) -> Option<GrainStop> {
     let EngineStop::Broken(CoupledStop::Grains(error)) = stop else { return None };
     let case = Case { scene, part: scene.free.as_ref()?, system: engine.free_grains()? };
     let (symptom, cause, remedy) = match error {
@@ -171,12 +175,15 @@ impl Case<'_> {
     /// A grain that is nowhere.
     fn nowhere(grain: usize, position: &[f64; 3], is_fluid: bool) -> Words {
         let symptom = match position.iter().all(|x| x.is_finite()) {
-            true => format!("grain {grain} (counted from 0) is farther off than cells can be numbered"),
+            true => {
+                format!("grain {grain} (counted from 0) is farther off than cells can be numbered")
+            }
             false => format!("the place of grain {grain} (counted from 0) is not a number"),
         };
         match is_fluid {
             true => {
-                let cause = "the load of the fluid on a grain is not a number: the flow has broken".to_owned();
+                let cause = "the load of the fluid on a grain is not a number: the flow has broken"
+                    .to_owned();
                 (symptom, cause, "use a shorter time step or a finer grid".to_owned())
             }
             false => {

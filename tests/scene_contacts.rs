@@ -154,7 +154,11 @@ fn the_default_stiffness_is_what_weight_and_impacts_ask_for_at_any_time_step() {
         let scene = scene(&BED.replace("tau = 0.8", &format!("tau = {tau}")));
         let found = numbers(&scene).into_iter().find(|number| number.name == "stiffness").unwrap();
         // The speed is found to a thousandth, and the stiffness goes as its square.
-        assert!((found.value / wanted - 1.0).abs() < 3e-3, "tau {tau}: {} N/m, not {wanted}", found.value);
+        assert!(
+            (found.value / wanted - 1.0).abs() < 3e-3,
+            "tau {tau}: {} N/m, not {wanted}",
+            found.value
+        );
     }
     // With a short time step ten steps are shorter than that: then contacts last ten steps, as ever.
     let short = scene(&BED.replace("tau = 0.8", "tau = 0.505"));
@@ -321,7 +325,10 @@ fn absurd_contacts_blame_their_own_key_with_a_range_that_is_accepted() {
     for ratio in ["1e300", "1e-300", "-1.0", "nan"] {
         let section = format!("[contact]\ntangential_ratio = {ratio}\n[[records]]");
         let said = parsed(&BALL.replace("[[records]]", &section)).expect_err(ratio);
-        assert!(said.contains("contact.tangential_ratio") && said.contains("0.001 to 10"), "{said}");
+        assert!(
+            said.contains("contact.tangential_ratio") && said.contains("0.001 to 10"),
+            "{said}"
+        );
     }
 }
 
@@ -334,6 +341,7 @@ fn grains_that_need_too_many_substeps_are_refused_with_two_ways_out_that_work() 
     let shorter = BALL.replace("dt = 0.0002", &format!("dt = {si_dt:e}"));
     assert!(parsed(&shorter).is_ok(), "{:?}", parsed(&shorter).err());
     let stiffness = number_after(&said, "stiffness = ");
-    let softer = text.replace("[[records]]", &format!("[contact]\nstiffness = {stiffness:e}\n[[records]]"));
+    let softer =
+        text.replace("[[records]]", &format!("[contact]\nstiffness = {stiffness:e}\n[[records]]"));
     assert!(parsed(&softer).is_ok(), "{:?}", parsed(&softer).err());
 }

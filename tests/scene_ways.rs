@@ -92,7 +92,8 @@ fn walls_mirrors_and_inlets_end_the_way_of_a_sphere_and_periodic_and_open_faces_
         // As far from the lower wall: the mirror image of the first.
         (TOWED.replace("[1e-4,", "[6e-5,").replace("[0.03,", "[-0.03,"), "x_low"),
     ] {
-        let Some(Meeting { step, grain: 0, obstacle: Obstacle::Face { name, .. } }) = meeting(&text)
+        let Some(Meeting { step, grain: 0, obstacle: Obstacle::Face { name, .. } }) =
+            meeting(&text)
         else {
             panic!("{text}")
         };

@@ -47,7 +47,9 @@ fn softness(scene: &Scene, part: &FreePart) -> Option<Warning> {
              {lost}"
         )
     } else if in_impact > DEEP_IMPACT {
-        format!("a grain that falls on the smallest one overlaps it by {in_impact:.1e} of its diameter")
+        format!(
+            "a grain that falls on the smallest one overlaps it by {in_impact:.1e} of its diameter"
+        )
     } else {
         return None;
     };

@@ -32,8 +32,14 @@ impl Keys {
         let ContactSection { stiffness, damping, duration, restitution, tangential_ratio, .. } =
             &mut self.contact;
         let gap = self.lubrication.as_mut().map(|section| &mut section.smallest_gap);
-        let all =
-            [Some(stiffness), Some(damping), Some(duration), Some(restitution), Some(tangential_ratio), gap];
+        let all = [
+            Some(stiffness),
+            Some(damping),
+            Some(duration),
+            Some(restitution),
+            Some(tangential_ratio),
+            gap,
+        ];
         all.into_iter().nth(key).flatten()
     }
 
@@ -92,8 +98,9 @@ pub(super) fn check(
                  {FEWEST_SUBSTEPS_PER_CONTACT} sub-steps or more",
                 keys.shortest_time(maker)
             );
-            let remedy =
-                format!("give {fewest} sub-steps or more, or leave `substeps` out: it is chosen then");
+            let remedy = format!(
+                "give {fewest} sub-steps or more, or leave `substeps` out: it is chosen then"
+            );
             Err(Trouble::new("contact.substeps", problem, remedy))
         }
         _ => Ok(()),
