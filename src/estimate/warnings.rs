@@ -6,6 +6,7 @@ mod contacts;
 mod density;
 mod faces;
 mod gravity;
+mod lists;
 mod prescribed;
 mod records;
 mod scales;
@@ -15,7 +16,7 @@ use super::Warning;
 use crate::scene::Scene;
 
 /// The topics, in the order in which they are told.
-const TOPICS: [fn(&Scene) -> Vec<Warning>; 9] = [
+const TOPICS: [fn(&Scene) -> Vec<Warning>; 10] = [
     scales::warnings,
     accuracy::warnings,
     faces::warnings,
@@ -24,6 +25,7 @@ const TOPICS: [fn(&Scene) -> Vec<Warning>; 9] = [
     contacts::warnings,
     prescribed::warnings,
     stability::warnings,
+    lists::warnings,
     records::warnings,
 ];
 

@@ -15,6 +15,8 @@ pub mod grain_list;
 pub mod grains;
 pub(crate) mod hardness;
 mod lubrication;
+mod list_header;
+mod list_text;
 mod mirrors;
 pub(crate) mod neighbours;
 mod numbers;
