@@ -143,7 +143,7 @@ fn grain_that_starts_spinning_slows_down_as_the_exact_curve_says() {
         let row = rows.iter().find(|row| &row[0] == "2.65" && &row[1] == time).unwrap();
         let (found, exact) = (spin(&kernel) / start, row[2].parse::<f64>().unwrap());
         println!("T = {time}: spin over its start {found:.4}, exact {exact:.4}");
-        // As in tests/free_start.rs.
+        // As in tests/oracle/free_start.rs.
         assert!((found - exact).abs() < 0.015, "T = {time}: {found:.4} of the spin, exact {exact}");
     }
 }

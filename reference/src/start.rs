@@ -9,7 +9,7 @@
 //! A scene says thereby: at the start the grain has its velocity and the fluid outside its own, up to the
 //! surface. Both are only possible for a moment. Fluid that has to give way takes up its share of the
 //! momentum by sound, within a few `a/c_s`: a lone sphere keeps `r/(r + 1/2)` of its velocity, with `r`
-//! its density over the fluid's; spinning, it keeps all (`tests/free_start.rs`).
+//! its density over the fluid's; spinning, it keeps all (`tests/oracle/free_start.rs`).
 
 use crate::coverage::Coverage;
 use crate::equilibrium::equilibrium;

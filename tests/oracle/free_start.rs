@@ -4,7 +4,7 @@
 //! The exact curves are `golden/free_start/exact.csv`, made and derived by `exact.py` beside it. At the
 //! start the fluid outside is at rest up to the surface (`reference/src/start.rs`).
 
-mod common;
+use crate::common;
 
 use common::collisions::dhumieres;
 use common::random::Random;
