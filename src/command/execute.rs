@@ -14,6 +14,7 @@ use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
+use crate::estimate::{Warning, warnings};
 use crate::output::folder::RunFolder;
 use crate::output::{atomic, csv, grain_plots, names, plot};
 use crate::run::{End, run as run_scene};
@@ -34,6 +35,9 @@ pub(super) fn execute(
     json: bool,
 ) -> Result<(), CommandError> {
     let (start, first_step) = (Instant::now(), engine.steps());
+    if !json {
+        warn(scene);
+    }
     let facts = |engine: &dyn Engine, state: &str| {
         write_facts(scene, engine, folder, first_step, start, state)
     };
@@ -89,6 +93,13 @@ pub(super) fn execute(
     }
     say(&format!("results in {}", path.display()));
     Ok(())
+}
+
+/// Says beforehand what looks risky, a line each; `run.json` and `--json` have it too.
+fn warn(scene: &Scene) {
+    for Warning { reason, remedy } in warnings(scene) {
+        tell(&format!("warning: {reason} (help: {remedy})"));
+    }
 }
 
 /// Draws the records that a curve can show.
@@ -171,6 +182,7 @@ fn write_facts(
         "dt_s": scene.units.si_dt,
         "dx_m": scene.units.si_dx,
         "tau": scene.setup.collision.tau(),
+        "warnings": warnings(scene),
         "program": info::program(),
         "machine": info::machine(),
     });
