@@ -29,14 +29,28 @@ pub enum RunError {
     /// A table that a resumed run should go on with is not the one that it has written.
     #[error("{0}; put it back as it was, or start a new run: nothing has been changed")]
     Table(io::Error),
-    /// Its folder has been moved or removed while it ran.
-    #[error("the folder {path} has been moved or removed while the run wrote into it: {rescue}")]
+    /// Its folder, or something in it, has been moved or removed while it ran.
+    #[error(
+        "the folder {path}, or a part of it, has been moved or removed while the run wrote into it: {rescue}"
+    )]
     Gone {
         /// Where it was.
         path: String,
         /// What has been saved elsewhere, and how to go on.
         rescue: String,
     },
+}
+
+impl RunError {
+    /// Whether a file or folder that was there has gone.
+    fn misses_a_file(&self) -> bool {
+        let (RunError::Write(error) | RunError::Checkpoint(CheckpointError::File { error, .. })) =
+            self
+        else {
+            return false;
+        };
+        error.kind() == io::ErrorKind::NotFound
+    }
 }
 
 /// Why a run ended.
@@ -102,9 +116,7 @@ pub fn run(
 ) -> Result<End, RunError> {
     let mut run = Run::begin(scene, folder, resumed)?;
     let end = match run.advance(engine, resumed.is_none(), watcher) {
-        Err(RunError::Write(_) | RunError::Checkpoint(_)) if !folder.is_there() => {
-            return Err(run.rescue(engine));
-        }
+        Err(error) if error.misses_a_file() => return Err(run.rescue(engine)),
         end => end?,
     };
     if end != End::Interrupted {

@@ -108,7 +108,11 @@ impl Recorder {
     pub fn take(&mut self, scene: &Scene, engine: &dyn Engine) -> io::Result<()> {
         let path = table_path(&self.record, &self.folder);
         match self.table {
-            Some(_) => named(&path, self.take_rows(scene, engine)),
+            Some(_) => {
+                named(&path, self.take_rows(scene, engine))?;
+                // An open file takes rows also when it has been removed, and loses them at the end.
+                named(&path, path.metadata().map(|_| ()))
+            }
             None => {
                 let taken = snapshots::take(&self.record, scene, engine, &self.folder);
                 named(&self.folder.join(&self.record.name), taken)
