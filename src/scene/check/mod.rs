@@ -82,6 +82,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         ),
         None => None,
     };
+    records::files_differ(&records, &list.attachments, exact.is_some())?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_default(),
         text: String::new(),
