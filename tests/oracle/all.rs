@@ -32,6 +32,7 @@ mod limits;
 mod moments;
 mod poiseuille;
 mod ps_channel_wall;
+mod registers;
 mod reproducible;
 mod sphere_arrays;
 mod stokes_settling;
