@@ -4,20 +4,24 @@
 mod accuracy;
 mod contacts;
 mod density;
+mod ends;
 mod faces;
 mod gravity;
 mod records;
 mod scales;
 pub(crate) mod stability;
+mod start;
 
 use super::Warning;
 use crate::scene::Scene;
 
 /// The topics, in the order in which they are told.
-const TOPICS: [fn(&Scene) -> Vec<Warning>; 8] = [
+const TOPICS: [fn(&Scene) -> Vec<Warning>; 10] = [
     scales::warnings,
     accuracy::warnings,
     faces::warnings,
+    start::warnings,
+    ends::warnings,
     gravity::warnings,
     density::warnings,
     contacts::warnings,

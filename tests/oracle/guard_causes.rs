@@ -1,6 +1,6 @@
 //! Causes that the guard must tell apart, each provoked: the message says what would help, and not what would not.
 
-mod common;
+use crate::common;
 
 use common::Budget;
 use common::collisions::dhumieres;
