@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use super::execute::say;
 use super::plan_text::{percent, print, to_json, words};
+use super::say::say;
 use super::{CommandError, engine, engine_changes};
 use crate::cases::CaseError;
 use crate::engine::Engine;

@@ -7,6 +7,7 @@ mod density;
 mod ends;
 mod faces;
 mod gravity;
+mod lists;
 mod records;
 mod scales;
 pub(crate) mod stability;
@@ -16,7 +17,7 @@ use super::Warning;
 use crate::scene::Scene;
 
 /// The topics, in the order in which they are told.
-const TOPICS: [fn(&Scene) -> Vec<Warning>; 10] = [
+const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     scales::warnings,
     accuracy::warnings,
     faces::warnings,
@@ -26,12 +27,13 @@ const TOPICS: [fn(&Scene) -> Vec<Warning>; 10] = [
     density::warnings,
     contacts::warnings,
     stability::warnings,
+    lists::warnings,
     records::warnings,
 ];
 
 /// All that looks risky.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    TOPICS.into_iter().flat_map(|topic| topic(scene)).collect()
+    TOPICS.iter().flat_map(|topic| topic(scene)).collect()
 }
 
 /// A warning.

@@ -12,6 +12,8 @@ mod generated;
 mod grain_kinds;
 pub mod grain_list;
 pub mod grains;
+mod list_header;
+mod list_text;
 mod mirrors;
 mod neighbours;
 mod numbers;
@@ -73,6 +75,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         ),
         None => None,
     };
+    records::files_differ(&records, &list.attachments, exact.is_some())?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_default(),
         text: String::new(),
