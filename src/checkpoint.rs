@@ -20,6 +20,7 @@ use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 use crate::engine::Engine;
 use crate::output::atomic;
+use crate::run::steady::Saved;
 use crate::scene::Scene;
 
 const MAGIC: &[u8; 8] = b"PSMRTCK1";
@@ -50,10 +51,8 @@ pub struct Header {
 pub struct Progress {
     /// Length in bytes of each record's table, 0 for a record that is none.
     pub table_lengths: Vec<u64>,
-    /// Rows in a row that were steady.
-    pub quiet_rows: u32,
-    /// Bits of the last value that the steady-state criterion saw.
-    pub last_value_bits: Option<u64>,
+    /// What the steady-state criterion has seen, if there is one.
+    pub steady: Option<Saved>,
 }
 
 /// A checkpoint that cannot be used.

@@ -14,8 +14,9 @@ use super::{CommandError, comparison, info, profile, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
 use crate::output::{atomic, csv, grain_plots, plot};
+use crate::run::steady::value_of;
 use crate::run::{End, run as run_scene};
-use crate::scene::{Scene, What};
+use crate::scene::{Scene, Steady, What};
 
 /// Exit code after a second interruption, which does not wait for the state to be saved.
 const INTERRUPTED: i32 = 130;
@@ -35,6 +36,7 @@ pub(super) fn execute(
     drop(progress);
     let word = match &end {
         Ok(End::Steady) => "steady",
+        Ok(End::NotSteady { .. }) => "not steady",
         Ok(End::Limit) => "limit",
         Ok(End::Interrupted) => "interrupted",
         Err(_) => "failed",
@@ -42,6 +44,7 @@ pub(super) fn execute(
     // A run that failed on a full disk should say that, not that its facts cannot be written.
     let facts = write_facts(scene, engine, folder, first_step, start, word);
     let (end, facts) = (end?, facts?);
+    let verdict = if let End::NotSteady { .. } = end { Err(CommandError::NotSteady) } else { Ok(()) };
     if end == End::Interrupted {
         return Err(CommandError::Interrupted { folder: folder.display().to_string() });
     }
@@ -57,7 +60,7 @@ pub(super) fn execute(
             "folder": folder, "run": facts, "comparison": comparison, "profile": profile,
         });
         say(&all.to_string());
-        return Ok(());
+        return verdict;
     }
     let steps = engine.steps();
     let seconds = start.elapsed().as_secs_f64();
@@ -65,7 +68,11 @@ pub(super) fn execute(
     say(&format!(
         "{} after {steps} steps ({:.4e} s); {seconds:.2} s of computing, {:.2} million cell updates \
          a second",
-        if end == End::Steady { "steady" } else { "at its limit" },
+        match end {
+            End::Steady => "steady",
+            End::NotSteady { .. } => "at its limit and NOT steady",
+            End::Limit | End::Interrupted => "at its limit",
+        },
         steps as f64 * scene.units.si_dt,
         updates / seconds / 1e6
     ));
@@ -75,8 +82,32 @@ pub(super) fn execute(
     if let (Some(found), Some(exact)) = (&found, &scene.exact) {
         say(&comparison::to_text(exact, found));
     }
+    if let (End::NotSteady { left }, Some(steady)) = (end, &scene.stop.steady) {
+        say(&not_steady(scene, engine, steady, left));
+    }
     say(&format!("results in {}", folder.display()));
-    Ok(())
+    verdict
+}
+
+/// What is wrong with a run that its limit has ended before it was steady, and what helps.
+fn not_steady(scene: &Scene, engine: &dyn Engine, steady: &Steady, left: Option<f64>) -> String {
+    let record = &scene.records[steady.record].name;
+    let column = steady.column(&scene.records);
+    let value = value_of(scene, engine, steady);
+    let tolerance = steady.tolerance;
+    let what = format!("NOT steady: {} of {record} is {value:.4e} {}", column.name, column.unit);
+    let longer = "let it run longer (stop.time, stop.steps), or allow more (stop.steady.tolerance)";
+    match left {
+        Some(left) if left.is_finite() => format!(
+            "{what} and has {left:.1e} of itself still to go, {:.2} times the tolerance of {tolerance:.1e}; {longer}",
+            left / tolerance
+        ),
+        Some(_) => format!("{what} and changes without slowing down; {longer}"),
+        None if value == 0.0 => {
+            format!("{what}, of which no share is a tolerance; watch a column that does not vanish")
+        }
+        None => format!("{what}, and the record has too few rows to tell; {longer}, or take rows more often"),
+    }
 }
 
 /// Draws the records that a curve can show.

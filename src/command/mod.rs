@@ -96,6 +96,9 @@ pub enum CommandError {
     /// A candidate with wrong answers; the verdict has said which.
     #[error("the candidate failed")]
     CandidateFailed,
+    /// The run has reached its limit before its flow was steady; its summary has said so.
+    #[error("the run is not steady")]
+    NotSteady,
     /// The user has interrupted the run; its state is saved.
     #[error("interrupted; the state is saved: psmrt resume {folder}")]
     Interrupted {
@@ -113,8 +116,8 @@ impl CommandError {
         }
     }
 
-    /// The exit code: 2 for what the user can put right in the scene or the command line, 130 for
-    /// an interruption, else 1.
+    /// The exit code: 2 for what the user can put right in the scene or the command line, 3 for a run that
+    /// is not steady at its limit, 130 for an interruption, else 1.
     pub fn exit_code(&self) -> u8 {
         match self {
             CommandError::Scene(_)
@@ -132,6 +135,7 @@ impl CommandError {
             | CommandError::Stability(_)
             | CommandError::ClaimsFail
             | CommandError::GoldenDiffers => 1,
+            CommandError::NotSteady => 3,
             CommandError::Interrupted { .. } => 130,
         }
     }

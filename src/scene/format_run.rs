@@ -104,8 +104,11 @@ pub struct StopSection {
     pub steady: Option<SteadySection>,
 }
 
-/// Steady: three rows of a record in a row, each of which changes a column by less than
-/// `tolerance` of its value.
+/// Steady: a column of a record is within `tolerance` of the value it goes to. That is estimated from the last
+/// half of the time since the start, however often rows are taken: an approach that falls by the same factor over
+/// equal times goes on falling so; what goes to and fro may do so again as far as in the last quarter. The estimate
+/// must stay within the tolerance for an eighth of the time. A run that ends at `time` or `steps` sooner says
+/// that it is not steady, and by how much; its exit code is 3.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SteadySection {
@@ -114,7 +117,7 @@ pub struct SteadySection {
     /// One of its columns, for example `superficial_velocity_x`; of `loads` a force, summed over all
     /// grains.
     pub column: String,
-    /// Largest relative change from row to row, in (0, 1).
+    /// Largest distance from the final value, as a share of the value, in (0, 1).
     pub tolerance: f64,
 }
 
