@@ -1,4 +1,5 @@
-//! How steady a run was when it was taken for steady: part of every verdict.
+//! How steady a run was when it was taken for steady: part of every verdict. The criterion compares parts of the
+//! time (`run/steady.rs`); here the last rows are asked, so that one checks the other.
 
 use super::bench::Finished;
 use super::{CaseError, Claim, Table};
@@ -10,7 +11,7 @@ pub struct Settled {
     pub run: String,
     /// Steps made.
     pub steps: u64,
-    /// What the criterion allows: relative change from row to row.
+    /// What the criterion allows: relative distance from the final value.
     pub tolerance: f64,
     /// Relative change over the last window, from one row to the next.
     pub change: f64,
@@ -39,7 +40,7 @@ impl Settled {
     }
 }
 
-/// The values whose changes the criterion has looked at. They tell a flow that creeps from one that swings, or
+/// The last values, which tell a flow that creeps from one that swings, or
 /// from rounding: chance gives three changes of one sign once in four times.
 const WINDOW: usize = 4;
 
@@ -85,10 +86,9 @@ pub fn steadiness(engine: &str, runs: &[Settled]) -> Option<Claim> {
         ),
         measured: worst,
         allowed: 0.0..=10.0,
-        why: "three rows in a row have changed by less than the tolerance, or there is no result; a flow \
-              that creeps could pass that with far to go, so the ratio of its last changes is looked at, and \
-              changes that do not fall are taken to go on for as long as the run has. Ten times the tolerance is below what each case allows \
-              for other reasons",
+        why: "the criterion has found less than the tolerance to go, from parts of the time; here the ratio of the \
+              last changes is asked as well, and changes that do not fall are taken to go on for as long as the run \
+              has. Ten times the tolerance is below what each case allows for other reasons",
     })
 }
 
@@ -155,7 +155,7 @@ mod tests {
     }
 
     #[test]
-    fn a_flow_that_creeps_meets_the_criterion_and_fails_the_claim() {
+    fn a_flow_that_creeps_fails_the_claim() {
         let (quick, creeping) = (approach(0.5, 1e-4).0, approach(0.99, 1e-4).0);
         assert!(steadiness("reference", std::slice::from_ref(&quick)).unwrap().holds());
         assert!(!steadiness("reference", &[quick, creeping]).unwrap().holds());

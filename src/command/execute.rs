@@ -34,6 +34,7 @@ pub(super) fn execute(
     let mut progress = ProgressBar::new(scene, json, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
     drop(progress);
+    let left = if let Ok(End::NotSteady { left }) = end { left } else { None };
     let word = match &end {
         Ok(End::Steady) => "steady",
         Ok(End::NotSteady { .. }) => "not steady",
