@@ -167,6 +167,38 @@ fn check_tells_numbers_models_and_warnings_and_makes_nothing() {
 }
 
 #[test]
+fn a_run_says_the_warnings_of_the_check_once_each() {
+    let folder = Folder::new("warned");
+    let mut budget = Budget::oracle(4_000);
+    // A sphere of 2 cells in a stream of Mach 0.29: whatever else is warned of, this is.
+    let changes = ["--set", "domain.dx=1.5e-4", "--set", "stop.time=3e-3"];
+    let scene = "golden/sphere_drag/scene.toml";
+    let checked = json(&psmrt(&[&["check", scene, "--json"], &changes[..]].concat()));
+    let wanted = checked["warnings"].as_array().unwrap().clone();
+    assert!(!wanted.is_empty(), "{checked}");
+    let holds_once = |said: &str| {
+        for warning in &wanted {
+            let reason = warning["reason"].as_str().unwrap();
+            assert_eq!(said.matches(reason).count(), 1, "not once: {reason}\nsaid: {said}");
+        }
+    };
+    let out = folder.path("text");
+    let output = psmrt(&[&["run", scene, "--out", out.to_str().unwrap()], &changes[..]].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    holds_once(&stderr(&output));
+    let facts: Value =
+        serde_json::from_str(&fs::read_to_string(out.join("run.json")).unwrap()).unwrap();
+    assert_eq!(facts["warnings"].as_array(), Some(&wanted), "run.json");
+    let out = folder.path("json");
+    let arguments = ["run", scene, "--json", "--out", out.to_str().unwrap()];
+    let output = psmrt(&[&arguments, &changes[..]].concat());
+    assert_eq!(json(&output)["run"]["warnings"].as_array(), Some(&wanted), "--json");
+    assert!(!stderr(&output).contains("warning"), "{}", stderr(&output));
+    // Two runs of four steps, and what the check tries for half a second is not counted.
+    budget.spend(2 * 4 * 500);
+}
+
+#[test]
 fn every_golden_scene_passes_the_check() {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
     let scenes: Vec<_> = fs::read_dir(golden)

@@ -16,7 +16,7 @@ fn solid_fraction_is_the_volume_that_quadrature_finds() {
         let (centre, radius) = cut(&mut random);
         let found = solid_fraction(centre.into(), radius);
         // Its terms are of the order of the radius cubed, up to some 60 of them; the quadrature is good
-        // to 1e-9 (tests/coverage.rs).
+        // to 1e-9 (tests/oracle/coverage.rs).
         let tolerance = 1e-9 + 1e-14 * radius.powi(3);
         assert_close(found, fraction_by_quadrature(&centre, radius), tolerance);
     }

@@ -2,13 +2,14 @@
 
 mod cli;
 mod common;
+mod trials;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use cli::{Folder, psmrt, stdout};
-use common::{Budget, trials};
+use common::Budget;
 use psmrt::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::CoupledStop;

@@ -18,7 +18,8 @@
 //! | section 4, fluid on grains | free grains in the fluid | [`coupling`] |
 //!
 //! Symbols: `reference/NOTATION.md`. Departures from the printed equations, each with the test that
-//! shows why: `reference/ERRATA.md`. Everything is in lattice units: grid spacing, time step and the
+//! shows why: `reference/ERRATA.md`. Proofs: `tests/oracle/`, run by `cargo test -p psmrt-reference`.
+//! Everything is in lattice units: grid spacing, time step and the
 //! reference density are 1.
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]

@@ -13,6 +13,7 @@ use super::progress::Progress as ProgressBar;
 use super::{CommandError, comparison, info, profile, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
+use crate::estimate::{Warning, warnings};
 use crate::output::{atomic, csv, grain_plots, plot};
 use crate::run::steady::value_of;
 use crate::run::{End, run as run_scene};
@@ -30,6 +31,9 @@ pub(super) fn execute(
     json: bool,
 ) -> Result<(), CommandError> {
     let (start, first_step) = (Instant::now(), engine.steps());
+    if !json {
+        warn(scene);
+    }
     write_facts(scene, engine, folder, first_step, start, "running")?;
     let mut progress = ProgressBar::new(scene, json, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
@@ -111,6 +115,14 @@ fn not_steady(scene: &Scene, engine: &dyn Engine, steady: &Steady, left: Option<
     }
 }
 
+/// Says beforehand what looks risky, a line each; `run.json` and `--json` have it too.
+fn warn(scene: &Scene) {
+    for Warning { reason, remedy } in warnings(scene) {
+        // Whoever has closed this has decided not to be warned.
+        let _ = writeln!(std::io::stderr(), "warning: {reason} (help: {remedy})");
+    }
+}
+
 /// Draws the records that a curve can show.
 fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
     for record in &scene.records {
@@ -178,6 +190,7 @@ fn write_facts(
         "dt_s": scene.units.si_dt,
         "dx_m": scene.units.si_dx,
         "tau": scene.setup.collision.tau(),
+        "warnings": warnings(scene),
         "program": info::program(),
         "machine": info::machine(),
     });

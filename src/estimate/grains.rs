@@ -8,22 +8,8 @@ use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::motion::Substeps;
 use psmrt_reference::lattice::{Vec3, viscosity};
 
-use super::{Number, Warning, number};
+use super::{Number, number};
 use crate::scene::{FreePart, Scene};
-
-/// A grain pressed in by more than this share of its diameter is no hard sphere any more.
-const DEEP: f64 = 0.01;
-
-/// Smallest density ratio that was right with the inertia of the fluid inside given back a step later, and
-/// kept, at tau up to 1; the next smaller that was tried, 0.5, broke at tau of 0.6 and more either way:
-/// golden/stability/movers.csv.
-const LIGHT: f64 = 0.8;
-
-/// Contacts shorter than so many time steps are over before the fluid takes part.
-const BRIEF: f64 = 4.0;
-
-/// More sub-steps than this in a time step begin to cost as much as the fluid.
-const MANY: u32 = 100;
 
 /// Gravity, and what of a grain's mass it acts on.
 fn pull(part: &FreePart) -> Vec3 {
@@ -40,7 +26,8 @@ fn buoyant_weight(part: &FreePart, grain: &Grain) -> f64 {
     (grain.mass - sphere_volume(grain.radius)).abs() * pull(part).norm()
 }
 
-fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
+/// The grains that move.
+pub(super) fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
     part.grains.iter().filter(|grain| !grain.held)
 }
 
@@ -55,7 +42,7 @@ pub(super) fn stokes_velocity(scene: &Scene) -> f64 {
 }
 
 /// How deep weight presses a grain into the floor, in its diameters: alone, and under all others.
-fn overlaps(scene: &Scene, part: &FreePart) -> [f64; 2] {
+pub(super) fn overlaps(scene: &Scene, part: &FreePart) -> [f64; 2] {
     let stiffness = part.setup.law.stiffness;
     let depth = |grain: &Grain| buoyant_weight(part, grain) / (stiffness * 2.0 * grain.radius);
     let alone = free(part).map(depth).fold(0.0, f64::max);
@@ -166,53 +153,4 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
 
 fn is_sieve(face: &Face) -> bool {
     matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow | Face::Pressure { .. })
-}
-
-/// What looks risky.
-pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
-    let Some(part) = &scene.free else { return Vec::new() };
-    let mut warnings = Vec::new();
-    let mut warn = |reason: String, remedy: &str| {
-        warnings.push(Warning { reason, remedy: remedy.to_owned() });
-    };
-    if let Some(Gravity::OnFluidToo { .. }) = part.settings.gravity {
-        let reason = "gravity as a body force: the fluid displaced is the sum of the weights B, so that \
-                      the buoyancy is only 58, 80 and 92 % of V g at 4, 8 and 16 cells per diameter";
-        warn(reason.to_owned(), "use `form = \"reduced\"`, with which hydrostatics is exact");
-    } else if scene.setup.body_force.is_some() {
-        let reason = "a body force on the fluid does not push the grains as the pressure gradient that \
-                      it stands for would: they lack V grad p";
-        warn(reason.to_owned(), "drive the flow by pressure faces, or add the force to [gravity]");
-    }
-    let lightest = free(part)
-        .map(|grain| grain.mass / (part.settings.fluid_density * sphere_volume(grain.radius)))
-        .fold(f64::INFINITY, f64::min);
-    if lightest < LIGHT {
-        let reason = format!(
-            "a grain of {lightest:.2} times the density of the fluid: grains lighter than {LIGHT} times were driven \
-             by the inertia of the fluid inside until the run broke (golden/stability/movers.csv)"
-        );
-        warn(reason, "use denser grains: psmrt has no scheme for light ones");
-    }
-    let [_, under] = overlaps(scene, part);
-    if under > DEEP {
-        let reason = format!("weight presses grains into each other by {under:.1e} of a diameter");
-        warn(reason, "make contacts shorter (contact.duration) or stiffer (contact.stiffness)");
-    }
-    let pair = 0.5 * free(part).map(|grain| grain.mass).fold(f64::INFINITY, f64::min);
-    let duration = part.setup.law.duration(pair);
-    if duration < BRIEF {
-        let reason = format!(
-            "contacts last {duration:.1} time steps: the load of the fluid is held during \
-                              a step, and it hardly takes part"
-        );
-        warn(reason, "make contacts last 10 time steps (contact.duration)");
-    }
-    if let Some(count) = part.substeps().ok().filter(|&count| count > MANY) {
-        let reason = format!(
-            "the grains make {count} sub-steps in a time step: they cost more than the fluid"
-        );
-        warn(reason, "make contacts last longer (contact.duration), 10 time steps are usual");
-    }
-    warnings
 }

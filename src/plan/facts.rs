@@ -11,7 +11,7 @@ use psmrt_reference::solids::Solid;
 use crate::cases::{CaseError, Table};
 use crate::estimate::si_velocity;
 use crate::estimate::spheres::spheres;
-use crate::estimate::stability::mapped;
+use crate::estimate::warnings::stability::mapped;
 use crate::scene::Scene;
 use crate::stability::limits::Measured;
 use crate::tradeoff::evidence::SolidKnob;

@@ -54,7 +54,7 @@ pub struct GravitySection {
     /// `reduced` (the default: grains carry their weight less their buoyancy, the pressure is that
     /// above the hydrostatic one) or `body_force` (fluid and grains carry their weight; the buoyancy
     /// is too small on coarse grids: 58, 80 and 92 % of the displaced weight at 4, 8 and 16 cells per
-    /// diameter and tau = 1, tests/coupling.rs).
+    /// diameter and tau = 1, tests/oracle/coupling.rs).
     #[serde(default)]
     pub form: GravityForm,
 }
@@ -73,7 +73,7 @@ pub enum GravityForm {
 /// How fluid and free grains act on each other. With either `internal_fluid` a grain of 1 to 10 times the fluid's
 /// density survives and keeps momentum, tau 0.501 to 2 (golden/stability/movers.csv); `lagged` is the default
 /// because a released sphere then starts as the exact solution says, within 2.5 % of its terminal velocity, while
-/// `kept` is too slow by more than 1.5 times that (tests/coupling.rs). Averaged loads with `lagged` let the spin
+/// `kept` is too slow by more than 1.5 times that (tests/oracle/coupling.rs). Averaged loads with `lagged` let the spin
 /// of a neutrally buoyant grain swing.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

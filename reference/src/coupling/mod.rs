@@ -12,7 +12,7 @@
 //! [`InternalFluid::Lagged`] gives back `m_f` times the last step's change of velocity (and so for the
 //! spin). Giving back this step's change blows up near a density ratio of 1, since then nothing is
 //! left that has inertia; giving back nothing is stable and has the right terminal velocity after the
-//! wrong start. `tests/coupling.rs` measures all three.
+//! wrong start. `tests/oracle/coupling.rs` measures all three.
 //!
 //! **What is conserved.** Without gravity, in a periodic box, to round-off:
 //!

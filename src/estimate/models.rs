@@ -1,0 +1,79 @@
+//! Which models a scene turns on, each with the reason.
+
+use psmrt_reference::collision::Collision;
+use psmrt_reference::coverage::CoverageRule;
+use psmrt_reference::domain::{FACE_NAMES, Face};
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
+
+use super::grains;
+use crate::scene::{Scene, What};
+
+/// The models that are on, each with the reason.
+pub fn models(scene: &Scene) -> Vec<String> {
+    let setup = &scene.setup;
+    let mut models = vec![match setup.collision {
+        Collision::Srt { .. } => "collision: SRT (collision.model)".to_owned(),
+        Collision::Mrt { rates } => format!(
+            "collision: MRT, s_e {:.4}, s_eps {:.4}, s_q {:.4}, s_nu {:.4}, s_pi {:.4}, s_m {:.4}",
+            rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m
+        ),
+    }];
+    if let Some(phase) = &setup.solid_phase {
+        models.push(format!(
+            "partial saturation: {}, {}, coverage {} (there are grains)",
+            match phase.weighting {
+                Weighting::NobleTorczynski => "Noble-Torczynski weighting",
+                Weighting::SolidFraction => "weighting by solid fraction",
+            },
+            match phase.operator {
+                SolidOperator::NonEquilibriumBounceBack => "non-equilibrium bounce-back",
+                SolidOperator::Superposition => "superposition",
+            },
+            match phase.coverage {
+                CoverageRule::Exact => "exact".to_owned(),
+                CoverageRule::Sampled { n } => format!("sampled {n} x {n} x {n}"),
+            }
+        ));
+        if phase.solids.iter().any(psmrt_reference::solids::Solid::moves) {
+            models.push("moving grains: coverage is found again in every step".to_owned());
+        }
+    }
+    models.extend(grains::models(scene));
+    if setup.body_force.is_some() {
+        models.push("body force: Guo (body_force)".to_owned());
+    }
+    for axis in 0..3 {
+        for side in 0..2 {
+            let name = FACE_NAMES[axis][side];
+            match setup.domain.faces().axis(axis)[side] {
+                Face::Periodic => {}
+                face => models.push(format!("face {name}: {}", face_words(&face))),
+            }
+        }
+    }
+    for record in &scene.records {
+        let what = match record.what {
+            What::Box => "means over the box",
+            What::Profile { .. } => "a profile",
+            What::Loads => "loads on grains",
+            What::Slice { .. } => "pictures of a slice",
+            What::Fields { .. } => "fields",
+            What::Grains => "grains",
+            What::GrainMeans => "means over the free grains",
+        };
+        models.push(format!("record {}: {what}, {}", record.name, record.rhythm));
+    }
+    models
+}
+
+fn face_words(face: &Face) -> &'static str {
+    match face {
+        Face::Periodic => "periodic",
+        Face::Wall { velocity } if velocity.norm() > 0.0 => "moving wall, half-way bounce-back",
+        Face::Wall { .. } => "wall, half-way bounce-back",
+        Face::FreeSlip => "mirror",
+        Face::VelocityInlet { .. } => "velocity inlet, half-way bounce-back",
+        Face::FreeOutflow => "free outflow, zero gradient",
+        Face::Pressure { .. } => "pressure, anti-bounce-back",
+    }
+}

@@ -1,0 +1,76 @@
+//! The derived numbers of a scene.
+
+use psmrt_reference::domain::Face;
+use psmrt_reference::solids::Shape;
+
+use super::{Number, diameters, grains, number, si_velocity};
+use crate::scene::check::domain::BYTES_PER_CELL;
+use crate::scene::{EngineKind, Scene};
+
+/// The length for the Reynolds number, m, and what it is.
+fn si_length(scene: &Scene) -> (f64, &'static str) {
+    let (cells, dx) = (scene.setup.domain.cells(), scene.units.si_dx);
+    if let Some((_, diameter)) = diameters(scene) {
+        return (diameter * dx, "the largest grain");
+    }
+    let walls = (0..3).filter(|&axis| {
+        let faces = scene.setup.domain.faces().axis(axis);
+        faces.iter().any(|face| matches!(face, Face::Wall { .. }))
+    });
+    match walls.map(|axis| cells[axis]).min() {
+        Some(gap) => (gap as f64 * dx, "the distance between the walls"),
+        None => (cells.into_iter().max().unwrap_or(1) as f64 * dx, "the longest side of the box"),
+    }
+}
+
+/// The derived numbers.
+pub fn numbers(scene: &Scene) -> Vec<Number> {
+    let (units, tau) = (&scene.units, scene.setup.collision.tau());
+    let cells = scene.setup.domain.cells();
+    let count = scene.setup.domain.cell_count();
+    let mut numbers = vec![
+        number("cells", count as f64, "", format!("{} x {} x {}", cells[0], cells[1], cells[2])),
+        number("dx", units.si_dx, "m", "edge of a cell"),
+        number("dt", units.si_dt, "s", "time step"),
+        number("tau", tau, "", "relaxation time; 0.6 to 1 is usual"),
+        number("velocity scale", units.si_velocity(), "m/s", "one cell per time step"),
+    ];
+    if let Some((si_speed, source)) = si_velocity(scene) {
+        let mach = si_speed / units.si_velocity() * 3.0_f64.sqrt();
+        let (si_length, what) = si_length(scene);
+        let nu = psmrt_reference::lattice::viscosity(tau) * units.si_viscosity();
+        numbers.push(number("velocity", si_speed, "m/s", format!("from {source}")));
+        numbers.push(number("Mach number", mach, "", "its square is the error of compressibility"));
+        numbers.push(number(
+            "Reynolds number",
+            si_speed * si_length / nu,
+            "",
+            format!("on {what}"),
+        ));
+    }
+    if let (Some((low, high)), Some(phase)) = (diameters(scene), &scene.setup.solid_phase) {
+        numbers.push(number("grains", phase.solids.len() as f64, "", "spheres"));
+        let note = if high > low { format!("the largest has {high:.2}") } else { String::new() };
+        numbers.push(number("cells per diameter", low, "", note));
+        let volume: f64 = phase
+            .solids
+            .iter()
+            .map(|solid| match solid.shape {
+                Shape::Sphere { radius } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+                Shape::Cells { .. } => 0.0,
+            })
+            .sum();
+        numbers.push(number("solid fraction", volume / count as f64, "", "grains over box"));
+    }
+    numbers.extend(grains::numbers(scene));
+    // Two copies of 19 populations of 4 bytes on a device.
+    let (engine, bytes) = match scene.engine {
+        EngineKind::Wgpu => ("wgpu", 2 * 19 * 4),
+        EngineKind::Reference | EngineKind::Auto => ("reference", BYTES_PER_CELL),
+    };
+    let memory = (count as u64 * bytes) as f64 / f64::from(1 << 20);
+    numbers.push(number("memory", memory, "MiB", format!("populations, engine {engine}")));
+    let (steps, si_time) = (scene.stop.steps as f64, scene.stop.steps as f64 * units.si_dt);
+    numbers.push(number("steps", steps, "", format!("at most; {si_time:.4e} s")));
+    numbers
+}

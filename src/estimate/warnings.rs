@@ -1,0 +1,36 @@
+//! What looks risky about a scene, one topic a file. `psmrt check` prints all of it, and `psmrt run` and
+//! `psmrt resume` before they start.
+
+mod accuracy;
+mod contacts;
+mod density;
+mod faces;
+mod gravity;
+mod records;
+mod scales;
+pub(crate) mod stability;
+
+use super::Warning;
+use crate::scene::Scene;
+
+/// The topics, in the order in which they are told.
+const TOPICS: [fn(&Scene) -> Vec<Warning>; 8] = [
+    scales::warnings,
+    accuracy::warnings,
+    faces::warnings,
+    gravity::warnings,
+    density::warnings,
+    contacts::warnings,
+    stability::warnings,
+    records::warnings,
+];
+
+/// All that looks risky.
+pub fn warnings(scene: &Scene) -> Vec<Warning> {
+    TOPICS.into_iter().flat_map(|topic| topic(scene)).collect()
+}
+
+/// A warning.
+fn warning(reason: impl Into<String>, remedy: impl Into<String>) -> Warning {
+    Warning { reason: reason.into(), remedy: remedy.into() }
+}

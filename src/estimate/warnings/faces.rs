@@ -1,0 +1,21 @@
+//! Warnings of faces that do not go together.
+
+use psmrt_reference::domain::Face;
+
+use super::warning;
+use crate::estimate::Warning;
+use crate::scene::Scene;
+
+pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    let faces = scene.setup.domain.faces();
+    let has = |wanted: fn(&Face) -> bool| (0..3).any(|axis| faces.axis(axis).iter().any(wanted));
+    if has(|face| matches!(face, Face::VelocityInlet { .. }))
+        && !has(|face| matches!(face, Face::Pressure { .. }))
+    {
+        return vec![warning(
+            "a velocity inlet with a free outflow leaves the mean density free",
+            "use a `pressure` outlet, or watch the column density of a record `box`",
+        )];
+    }
+    Vec::new()
+}

@@ -1,0 +1,44 @@
+//! Warnings of the scales in lattice units: relaxation time, velocity, grid Reynolds number.
+
+use psmrt_reference::lattice::viscosity;
+
+use super::warning;
+use crate::estimate::{Warning, si_velocity};
+use crate::scene::Scene;
+
+/// Speeds above this Mach number make more than a few percent of error.
+const HIGH_MACH: f64 = 0.17;
+
+pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let tau = scene.setup.collision.tau();
+    if tau < 0.52 {
+        warnings.push(warning(
+            format!("tau = {tau:.4} is close to 0.5: small structures hardly decay"),
+            "use a finer grid, a longer time step, or MRT with d'Humieres' rates",
+        ));
+    }
+    if tau > 2.0 {
+        warnings.push(warning(
+            format!("tau = {tau:.3} is large: walls and grains are placed less exactly"),
+            "use a shorter time step (a smaller `time.tau`)",
+        ));
+    }
+    if let Some((si_speed, source)) = si_velocity(scene) {
+        let speed = si_speed / scene.units.si_velocity();
+        if speed * 3.0_f64.sqrt() > HIGH_MACH {
+            warnings.push(warning(
+                format!("the velocity from {source} is {speed:.3} cells per time step"),
+                "use a shorter time step; below 0.05 errors of compressibility vanish",
+            ));
+        }
+        let grid_reynolds = speed / viscosity(tau);
+        if grid_reynolds > 10.0 {
+            warnings.push(warning(
+                format!("the grid Reynolds number is {grid_reynolds:.0}, above 10"),
+                "use a finer grid: the flow has structures smaller than a cell",
+            ));
+        }
+    }
+    warnings
+}

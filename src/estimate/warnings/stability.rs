@@ -1,0 +1,85 @@
+//! Warnings of scenes beyond what the maps of stability (`golden/stability`) found to survive or to be right.
+
+use psmrt_reference::domain::Face;
+use psmrt_reference::lattice::viscosity;
+
+use super::warning;
+use crate::estimate::spheres::solid_fraction;
+use crate::estimate::{Warning, diameters, si_velocity};
+use crate::scene::Scene;
+use crate::stability::Model;
+use crate::stability::limits::Measured;
+
+/// Grains that fill more than this part of the box make a bed: what flows between them is several times as
+/// fast as the superficial velocity, and the ordered bed says more than the shear layer.
+const DENSE: f64 = 0.3;
+
+/// The flow of the maps that a scene is held to, in words too, and how fast it is: cells per step, and where
+/// that comes from. `None` if no velocity is known.
+pub(crate) fn mapped(scene: &Scene) -> Option<(Measured, &'static str, f64, String)> {
+    let fraction = solid_fraction(scene);
+    let phase = scene.setup.solid_phase.as_ref();
+    match phase.filter(|_| fraction >= DENSE) {
+        Some(phase) => {
+            let (speed, source) = superficial_velocity(scene, fraction)?;
+            Some((Measured::Bed(phase.weighting), "an ordered bed of fixed grains", speed, source))
+        }
+        None => {
+            let (si_speed, source) = si_velocity(scene)?;
+            let speed = si_speed / scene.units.si_velocity();
+            Some((Measured::Fluid, "a shear layer", speed, source.to_owned()))
+        }
+    }
+}
+
+/// What looks risky.
+pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    let Some((measured, flow, speed, source)) = mapped(scene) else { return Vec::new() };
+    let (collision, tau) = (&scene.setup.collision, scene.setup.collision.tau());
+    let Some(limit) = measured.limit(collision) else { return Vec::new() };
+    let word = match limit.right.filter(|&right| speed > right && speed <= limit.lives) {
+        _ if speed > limit.lives => format!("survived only up to {}", limit.lives),
+        Some(right) => format!("was right only up to {right} (and survived up to {})", limit.lives),
+        None => return Vec::new(),
+    };
+    let reason = format!(
+        "the velocity from {source} is {speed:.3} cells per time step; at tau = {tau:.4} {flow} with this \
+         collision {word} (golden/stability)"
+    );
+    let other = measured.limit_of(Model::DHumieres, tau).filter(|other| other.lives > limit.lives);
+    let remedy = match other {
+        Some(other) => format!(
+            "use MRT with d'Humieres' rates (survived up to {}), a finer grid, or a smaller velocity",
+            other.lives
+        ),
+        None => "use a finer grid, or a shorter time step with tau further from 1/2 (a higher viscosity), or \
+                 a smaller velocity"
+            .to_owned(),
+    };
+    vec![warning(reason, remedy)]
+}
+
+/// The superficial velocity through a bed, cells per step, and where it comes from: that of an inlet, or
+/// what the body force drives by Ergun's law.
+fn superficial_velocity(scene: &Scene, fraction: f64) -> Option<(f64, String)> {
+    let faces = scene.setup.domain.faces();
+    let inlets = (0..3).flat_map(|axis| faces.axis(axis).map(|face| (axis, face)));
+    let fastest = inlets
+        .filter_map(|(axis, face)| match face {
+            Face::VelocityInlet { velocity } => Some(velocity[axis].abs()),
+            _ => None,
+        })
+        .fold(0.0, f64::max);
+    if fastest > 0.0 {
+        return Some((fastest, "the inlet".to_owned()));
+    }
+    let force = scene.setup.body_force?.norm();
+    let (diameter, _) = diameters(scene)?;
+    let (nu, porosity) = (viscosity(scene.setup.collision.tau()), 1.0 - fraction);
+    let cube = porosity.powi(3);
+    // G = 150 ν (1-ε)² U/(ε³ d²) + 1.75 (1-ε) U²/(ε³ d)          (Ergun, Chem. Eng. Prog. 48, 89 (1952))
+    let a = 1.75 * fraction / (cube * diameter);
+    let b = 150.0 * nu * fraction * fraction / (cube * diameter * diameter);
+    let speed = 2.0 * force / (b + (b * b + 4.0 * a * force).sqrt());
+    (speed > 0.0).then(|| (speed, "the body force, by Ergun's law,".to_owned()))
+}
