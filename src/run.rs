@@ -33,10 +33,13 @@ pub enum End {
     /// It has made all the steps that the scene allows, and nothing more was asked of it.
     Limit,
     /// It has become steady.
-    Steady,
+    Steady {
+        /// What is still to go, see [`steady::History::left`].
+        left: Option<f64>,
+    },
     /// It has made all the steps that the scene allows and has not become steady.
     NotSteady {
-        /// What is still to go, see [`steady::History::left`].
+        /// The same.
         left: Option<f64>,
     },
     /// The user has interrupted it; its state is saved.
@@ -83,7 +86,7 @@ pub fn run(
         let now = engine.steps();
         let left = run.steady.as_ref().and_then(steady::Watch::left);
         if run.steady.as_ref().is_some_and(steady::Watch::is_met) {
-            break End::Steady;
+            break End::Steady { left };
         }
         if now >= scene.stop.steps {
             break if run.steady.is_some() { End::NotSteady { left } } else { End::Limit };

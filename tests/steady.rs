@@ -74,7 +74,7 @@ fn a_channel_is_steady_within_the_tolerance_of_its_exact_flow_at_any_spacing_of_
             let end = run(&scene, &mut engine, folder.path(), None, &mut GoOn).unwrap();
             budget.spend(8 * engine.steps());
             let what = format!("tolerance {tolerance:e}, a row every {every} steps");
-            assert_eq!(end, End::Steady, "{what}");
+            assert!(matches!(end, End::Steady { .. }), "{what}: {end:?}");
             // Mean of G/(2ν) y (H - y) over the nodes y = 1/2, 3/2, ...: G/(2ν) (H²/6 + 1/12).
             let (nu, force) = (0.1 / 3.0, scene.setup.body_force.unwrap().x);
             let exact = force / (2.0 * nu) * (GAP * GAP / 6.0 + 1.0 / 12.0);

@@ -136,7 +136,7 @@ impl Bench {
     pub fn steady(&mut self, scene: &str, changes: &[String]) -> Result<Finished, CaseError> {
         let (mut finished, end) = self.run(scene, changes)?;
         let name = format!("{scene} {}", changes.join(" "));
-        if end == End::Steady {
+        if matches!(end, End::Steady { .. }) {
             let settled = Settled::of(name, &finished)?;
             self.settled.push(settled.clone());
             finished.settled = Some(settled);

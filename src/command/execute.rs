@@ -10,14 +10,13 @@ use psmrt_report::{Figure, write_svg};
 use serde_json::{Value, json};
 
 use super::progress::Progress as ProgressBar;
-use super::{CommandError, comparison, info, profile, write};
+use super::{CommandError, comparison, info, profile, summary, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
 use crate::estimate::{Warning, warnings};
 use crate::output::{atomic, csv, grain_plots, plot};
-use crate::run::steady::value_of;
 use crate::run::{End, run as run_scene};
-use crate::scene::{Scene, Steady, What};
+use crate::scene::{Scene, What};
 
 /// Exit code after a second interruption, which does not wait for the state to be saved.
 const INTERRUPTED: i32 = 130;
@@ -34,20 +33,19 @@ pub(super) fn execute(
     if !json {
         warn(scene);
     }
-    write_facts(scene, engine, folder, first_step, start, "running")?;
+    write_facts(scene, engine, folder, (first_step, start), ("running", None))?;
     let mut progress = ProgressBar::new(scene, json, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
     drop(progress);
-    let left = if let Ok(End::NotSteady { left }) = end { left } else { None };
     let word = match &end {
-        Ok(End::Steady) => "steady",
+        Ok(End::Steady { .. }) => "steady",
         Ok(End::NotSteady { .. }) => "not steady",
         Ok(End::Limit) => "limit",
         Ok(End::Interrupted) => "interrupted",
         Err(_) => "failed",
     };
     // A run that failed on a full disk should say that, not that its facts cannot be written.
-    let facts = write_facts(scene, engine, folder, first_step, start, word);
+    let facts = write_facts(scene, engine, folder, (first_step, start), (word, end.as_ref().ok()));
     let (end, facts) = (end?, facts?);
     let verdict = if let End::NotSteady { .. } = end { Err(CommandError::NotSteady) } else { Ok(()) };
     if end == End::Interrupted {
@@ -74,7 +72,7 @@ pub(super) fn execute(
         "{} after {steps} steps ({:.4e} s); {seconds:.2} s of computing, {:.2} million cell updates \
          a second",
         match end {
-            End::Steady => "steady",
+            End::Steady { .. } => "steady",
             End::NotSteady { .. } => "at its limit and NOT steady",
             End::Limit | End::Interrupted => "at its limit",
         },
@@ -87,32 +85,15 @@ pub(super) fn execute(
     if let (Some(found), Some(exact)) = (&found, &scene.exact) {
         say(&comparison::to_text(exact, found));
     }
-    if let (End::NotSteady { left }, Some(steady)) = (end, &scene.stop.steady) {
-        say(&not_steady(scene, engine, steady, left));
+    let last = summary::to_text(scene, engine);
+    if !last.is_empty() {
+        say(&format!("at the end:\n{last}"));
+    }
+    if let Some(trouble) = summary::not_steady(scene, engine, end) {
+        say(&trouble);
     }
     say(&format!("results in {}", folder.display()));
     verdict
-}
-
-/// What is wrong with a run that its limit has ended before it was steady, and what helps.
-fn not_steady(scene: &Scene, engine: &dyn Engine, steady: &Steady, left: Option<f64>) -> String {
-    let record = &scene.records[steady.record].name;
-    let column = steady.column(&scene.records);
-    let value = value_of(scene, engine, steady);
-    let tolerance = steady.tolerance;
-    let what = format!("NOT steady: {} of {record} is {value:.4e} {}", column.name, column.unit);
-    let longer = "let it run longer (stop.time, stop.steps), or allow more (stop.steady.tolerance)";
-    match left {
-        Some(left) if left.is_finite() => format!(
-            "{what} and has {left:.1e} of itself still to go, {:.2} times the tolerance of {tolerance:.1e}; {longer}",
-            left / tolerance
-        ),
-        Some(_) => format!("{what} and changes without slowing down; {longer}"),
-        None if value == 0.0 => {
-            format!("{what}, of which no share is a tolerance; watch a column that does not vanish")
-        }
-        None => format!("{what}, and the record has too few rows to tell; {longer}, or take rows more often"),
-    }
 }
 
 /// Says beforehand what looks risky, a line each; `run.json` and `--json` have it too.
@@ -172,9 +153,8 @@ fn write_facts(
     scene: &Scene,
     engine: &dyn Engine,
     folder: &Path,
-    first_step: u64,
-    start: Instant,
-    state: &str,
+    (first_step, start): (u64, Instant),
+    (state, end): (&str, Option<&End>),
 ) -> Result<Value, CommandError> {
     let unix_time =
         SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |duration| duration.as_secs());
@@ -191,6 +171,12 @@ fn write_facts(
         "dx_m": scene.units.si_dx,
         "tau": scene.setup.collision.tau(),
         "warnings": warnings(scene),
+        "steady": end.map(|&end| summary::steady(scene, engine, end)),
+        "results": end.map(|_| summary::results(scene, engine)),
+        "files": {
+            "csv": "SI units, in the first line of each table; box: means over all cells, solids included",
+            "npy": "axes z, y, x and, of vectors, component (x, y, z); cell centres; SI units",
+        },
         "program": info::program(),
         "machine": info::machine(),
     });

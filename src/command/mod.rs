@@ -17,6 +17,7 @@ mod report_files;
 pub mod resume;
 pub mod run;
 pub mod stability;
+mod summary;
 pub mod tradeoff;
 
 use std::path::Path;

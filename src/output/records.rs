@@ -147,8 +147,10 @@ fn columns(record: &Record) -> Option<Vec<Column>> {
 /// The values of [`BOX_COLUMNS`].
 pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
     let (means, units) = (engine.box_means(), &scene.units);
-    // The superficial velocity is the mass flux over the reference density, 1.
-    let superficial = means.mass_flux * units.si_velocity();
+    // The superficial velocity is the mass flux over the reference density, 1. That of a collision, which cells
+    // with solids in them brake, does not exist before the first one: the start has the flux that was set.
+    let flux = if engine.steps() == 0 { flux_at_start(scene, engine) } else { means.mass_flux };
+    let superficial = flux * units.si_velocity();
     [
         means.density * units.si_density,
         superficial.x,
@@ -156,6 +158,18 @@ pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
         superficial.z,
         means.max_speed * units.si_velocity(),
     ]
+}
+
+/// Mean of the momentum with half a step of the body force, `j + G/2`.
+fn flux_at_start(scene: &Scene, engine: &dyn Engine) -> Vec3 {
+    let count = scene.setup.domain.cell_count();
+    let [nx, ny, _] = scene.setup.domain.cells();
+    let planes = (0..count).step_by(nx * ny);
+    let of_plane = |first: usize| -> Vec3 {
+        let numbers: Vec<usize> = (first..first + nx * ny).collect();
+        engine.cells(&numbers).iter().map(|cell| cell.density * cell.velocity).sum()
+    };
+    planes.map(of_plane).sum::<Vec3>() / count as f64
 }
 
 /// The values of [`FORCE_COLUMNS`], summed over all grains.

@@ -94,7 +94,7 @@ impl Runner {
             Err(error) => return Err(error),
         };
         // A grain in a shaft is stopped after a time that its flow needs; all else must be steady.
-        let steady = end == End::Steady || knobs.flow == Flow::Settling;
+        let steady = matches!(end, End::Steady { .. }) || knobs.flow == Flow::Settling;
         row.end = if steady { "steady" } else { "limit" }.to_owned();
         row.cells = finished.scene.setup.domain.cell_count() as u64;
         row.steps = finished.engine.steps();
