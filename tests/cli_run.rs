@@ -171,7 +171,7 @@ fn a_run_says_the_warnings_of_the_check_once_each() {
     let folder = Folder::new("warned");
     let mut budget = Budget::oracle(4_000);
     // A sphere of 2 cells in a stream of Mach 0.29: whatever else is warned of, this is.
-    let changes = ["--set", "domain.dx=1.5e-4", "--set", "stop.time=3e-3"];
+    let changes = ["--set", "domain.dx=1.5e-4", "--set", "stop={ time = 3e-3 }"];
     let scene = "golden/sphere_drag/scene.toml";
     let checked = json(&psmrt(&[&["check", scene, "--json"], &changes[..]].concat()));
     let wanted = checked["warnings"].as_array().unwrap().clone();
