@@ -17,6 +17,8 @@
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
 //! | [`stability`] | where the method survives and where it is right |
+//! | [`input`] | reading of files that the user names |
+//! | [`quote`] | how the user's text stands in messages |
 //! | [`machine`] | what this machine has |
 //! | [`provenance`] | which commit results come from, and which day |
 
@@ -28,6 +30,7 @@ pub mod command;
 pub mod engine;
 pub mod estimate;
 pub mod exact;
+pub mod input;
 pub mod kernel;
 pub mod machine;
 pub mod oracle;
@@ -35,6 +38,7 @@ pub mod output;
 pub mod packing;
 pub mod plan;
 pub mod provenance;
+pub mod quote;
 pub mod run;
 pub mod scene;
 pub mod stability;

@@ -184,6 +184,7 @@ impl EngineArguments {
     /// The changes of the scene with these among them.
     fn added_to(self, mut set: Vec<String>) -> Result<Vec<String>, CommandError> {
         set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref())?);
+        psmrt::scene::differ(&set)?;
         Ok(set)
     }
 }

@@ -3,87 +3,14 @@
 
 mod cli;
 
+use std::path::Path;
+
 use cli::{Folder, psmrt_in, stderr, stdout};
+use psmrt::scene::Scene;
+use psmrt_reference::solids::Shape;
 
 /// A scene that runs: each wrong one differs from it in one place.
-const GOOD: &str = r#"title = "good"
-[domain]
-size = [1e-3, 5e-4, 5e-4]
-dx = 2.5e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
-[collision]
-model = "mrt"
-rates = "magic"
-magic = 0.25
-s_e = 1.1
-[faces]
-x_low = { kind = "velocity_inlet", velocity = [1e-3, 0.0, 0.0] }
-x_high = { kind = "pressure", pressure = 0.0 }
-y_low = { kind = "wall", velocity = [1e-3, 0.0, 0.0] }
-y_high.kind = "free_slip"
-[body_force]
-acceleration = [0.0, 0.0, 0.0]
-[initial]
-velocity = [1e-3, 0.0, 0.0]
-[[grains]]
-kind = "sphere"
-centre = [3e-4, 2.5e-4, 2.5e-4]
-diameter = 2e-4
-[[grains]]
-kind = "sphere"
-centre = [7e-4, 2.5e-4, 2.5e-4]
-diameter = 1e-4
-motion = "prescribed"
-spin = [0.0, 1.0, 0.0]
-[[grains]]
-kind = "sphere"
-centre = [5e-4, 2.5e-4, 2.5e-4]
-diameter = 1e-4
-motion = "free"
-density = 2650.0
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
-form = "reduced"
-[contact]
-duration = 6e-4
-restitution = 0.6
-friction = 0.4
-tangential_ratio = 0.3
-rolling_resistance = 0.05
-[coupling]
-internal_fluid = "lagged"
-[solid]
-weighting = "noble_torczynski"
-coverage = "sampled"
-samples = 4
-[[records]]
-name = "box"
-kind = "box"
-every_steps = 100
-[[records]]
-name = "line"
-kind = "profile"
-axis = "x"
-point = [0.0, 2.5e-4, 2.5e-4]
-[[records]]
-name = "all"
-kind = "fields"
-formats = ["vti"]
-[checkpoint]
-every_steps = 1000
-[stop]
-time = 0.01
-[stop.steady]
-record = "box"
-column = "density"
-tolerance = 1e-6
-[engine]
-kind = "reference"
-"#;
+const GOOD: &str = include_str!("cli/good.toml");
 
 /// A wrong scene: what is replaced in [`GOOD`] by what; the key; what is said.
 struct Bad(&'static str, &'static str, &'static str, &'static str);
@@ -101,6 +28,48 @@ const BAD: &[Bad] = &[
     Bad("axis = \"x\"", "axis = \"w\"", "records[1].axis", "x, y, z"),
     Bad("kind = \"reference\"", "kind = \"cuda\"", "engine.kind", "reference"),
     Bad("formats = [\"vti\"]", "formats = [\"hdf5\"]", "records[2].formats", "vti, npy"),
+    // First guesses.
+    Bad("y_high.kind = \"free_slip\"", "y_high = \"symmetry\"", "faces.y_high", "write `y_high.kind = \"free_slip\"`"),
+    Bad("[engine]\nkind = \"reference\"", "[engine]\nkind = \"gpu\"", "engine.kind", "psmrt calls it \"wgpu\""),
+    Bad("title = \"good\"", "compare = \"plane_poiseuille\"", "compare", "write `compare.exact = \"plane_poiseuille\"`"),
+    Bad("[engine]\nkind = \"reference\"", "[stop.engine]", "stop.engine", "did you mean `engine`?"),
+    Bad("record = \"box\"\ncolumn = \"density\"\ntolerance = 1e-6", "", "stop.steady.record", "Name of a record"),
+    Bad("[stop.steady]\nrecord = \"box\"\ncolumn = \"density\"\ntolerance = 1e-6", "steady = true", "stop.steady", "tolerance = 1e-6"),
+    Bad("[checkpoint]\nevery_steps = 1000", "[checkpoint.every_steps]", "checkpoint.every_steps", "not a section"),
+    Bad("[initial]\nvelocity = [1e-3, 0.0, 0.0]", "[initial]\nvelocity = 1e-3", "initial.velocity", "three values [x, y, z]"),
+    Bad("[checkpoint]", "[grains.more]\n[checkpoint]", "grains[2].more", "has no key `more`"),
+    Bad("[[records]]\nname = \"box\"\nkind = \"box\"\nevery_steps = 100\n[[records]]\nname = \"line\"\nkind = \"profile\"\naxis = \"x\"\npoint = [0.0, 2.5e-4, 2.5e-4]\n[[records]]", "[records]", "records", "write [[records]]"),
+    Bad("[fluid]\ndensity = 1000.0\nkinematic_viscosity = 1e-6", "", "fluid", "kinematic_viscosity = 1e-6"),
+    Bad("[stop]\ntime = 0.01\n[stop.steady]\nrecord = \"box\"\ncolumn = \"density\"\ntolerance = 1e-6", "", "stop", "[stop]\n"),
+    Bad("kinematic_viscosity = 1e-6", "dynamic_viscosity = 1e-3", "fluid.dynamic_viscosity", "kinematic = dynamic / density; write `kinematic_viscosity = 1e-6`"),
+    Bad("kinematic_viscosity = 1e-6", "mu = 1e-3", "fluid.mu", "write `kinematic_viscosity = 1e-6`"),
+    Bad("kinematic_viscosity = 1e-6", "nu = 1e-6", "fluid.nu", "psmrt calls it `kinematic_viscosity`"),
+    Bad("diameter = 2e-4", "radius = 1e-4", "grains[0].radius", "write `diameter = 2e-4`"),
+    Bad("tau = 0.8", "dx = 1e-5", "time.dx", "did you mean `domain.dx`?"),
+    Bad("kind = \"velocity_inlet\"", "kind = \"inlet\"", "faces.x_low.kind", "\"velocity_inlet\" and \"pressure\""),
+    Bad("kind = \"pressure\"", "kind = \"outlet\"", "faces.x_high.kind", "\"pressure\" and \"free_outflow\""),
+    Bad("kind = \"wall\"", "kind = \"no_slip\"", "faces.y_low.kind", "psmrt calls it \"wall\""),
+    Bad("kind = \"wall\"", "kind = \"no-slip\"", "faces.y_low.kind", "psmrt calls it \"wall\""),
+    Bad("kind = \"wall\"", "kind = \"bounce_back\"", "faces.y_low.kind", "psmrt calls it \"wall\""),
+    Bad("kind = \"wall\"", "kind = \"slip\"", "faces.y_low.kind", "psmrt calls it \"free_slip\""),
+    Bad("kind = \"wall\"", "kind = \"outflow\"", "faces.y_low.kind", "psmrt calls it \"free_outflow\""),
+    Bad("kind = \"wall\"", "kind = \"Wall\"", "faces.y_low.kind", "psmrt calls it \"wall\""),
+    Bad("model = \"mrt\"", "model = \"BGK\"", "collision.model", "psmrt calls it \"srt\""),
+    Bad("density = 1000.0", "density = \"1000\"", "fluid.density", "leave out the quotation marks: 1000"),
+    Bad("every_steps = 100\n", "every_steps = 1e2\n", "records[0].every_steps", "write 100"),
+    Bad("formats = [\"vti\"]", "formats = \"vti\"", "records[2].formats", "write [\"vti\"]"),
+    Bad("steps = 1000\n[stop]", "steps = 99999999999999999999\n[stop]", "", "9223372036854775807 is the limit"),
+    Bad("density = 1000.0", "density = 1e999", "", "1.8e308 is the limit"),
+    // Lists of a wrong length.
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = [1e-3, 5e-4, 5e-4, 9.0]", "domain.size", "three values [x, y, z]; 4 are given"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "cells = [8, 8, 8, 99]", "domain.cells", "three values [x, y, z]; 4 are given"),
+    Bad("size = [1e-3, 5e-4, 5e-4]", "size = [1e-3, 5e-4]", "domain.size", "three values [x, y, z]; 2 are given"),
+    Bad("acceleration = [0.0, 0.0, 0.0]", "acceleration = [0.0, 0.0, 0.0, 1.0]", "body_force.acceleration", "4 are given"),
+    Bad("acceleration = [0.0, 0.0, -9.81]", "acceleration = []", "gravity.acceleration", "0 are given"),
+    Bad("spin = [0.0, 1.0, 0.0]", "spin = [0.0, 1.0, 0.0, 0.0]", "grains[1].spin", "4 are given"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"random\"\ncount = 3\ndiameter_range = [1e-4, 2e-4, 3e-4]", "grains[0].diameter_range", "two values [low, high]; 3 are given"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"array\"\ncounts = [1, 1, 1, 1]", "grains[0].counts", "4 are given"),
+    Bad("velocity = [1e-3, 0.0, 0.0] }\nx_high", "velocity = [1e-3, 0.0, \"0\"] }\nx_high", "faces.x_low.velocity", "a number"),
     // Types.
     Bad("density = 1000.0", "density = \"1000\"", "fluid.density", "a number"),
     Bad("tau = 0.8", "tau = true", "time.tau", "a number"),
@@ -108,7 +77,7 @@ const BAD: &[Bad] = &[
     Bad("size = [1e-3, 5e-4, 5e-4]", "size = 1e-3", "domain.size", "[x, y, z]"),
     Bad("every_steps = 100\n", "every_steps = 100.5\n", "records[0].every_steps", "a whole number"),
     Bad("[body_force]\nacceleration = [0.0, 0.0, 0.0]", "[[body_force]]\nacceleration = [0.0, 0.0, 0.0]", "body_force", "only one such section"),
-    Bad("y_high.kind = \"free_slip\"", "y_high = \"free_slip\"", "faces.y_high", "FaceSection"),
+    Bad("y_high.kind = \"free_slip\"", "y_high = \"free_slip\"", "faces.y_high", "write `y_high.kind = \"free_slip\"`"),
     // Missing.
     Bad("dx = 2.5e-5\n", "", "domain.dx", "Edge of a cell, m"),
     Bad("kinematic_viscosity = 1e-6\n", "", "fluid.kinematic_viscosity", "m2/s"),
@@ -177,7 +146,9 @@ const BAD: &[Bad] = &[
     Bad("\"wall\", velocity = [1e-3, 0.0, 0.0]", "\"wall\", velocity = [0.0, 1e-3, 0.0]", "faces.y_low.velocity", "its own plane"),
     Bad("axis = \"x\"\npoint", "axis = \"x\"\nformats = [\"vti\"]\npoint", "records[1].formats", "belongs to"),
     Bad("axis = \"x\"\npoint", "axis = \"x\"\nquantity = \"speed\"\npoint", "records[1].quantity", "belongs to"),
-    Bad("record = \"box\"", "record = \"line\"", "stop.steady.record", "no record of that name"),
+    Bad("record = \"box\"", "record = \"line\"", "stop.steady.record", "not of kind `box`"),
+    Bad("record = \"box\"", "record = \"boks\"", "stop.steady.record", "no record of that name"),
+    Bad("every_steps = 100\n", "", "stop.steady.record", "add `every_steps = 100`"),
     Bad("column = \"density\"", "column = \"mass\"", "stop.steady.column", "superficial_velocity_x"),
     Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\nkind = \"loads\"", "stop.steady.column", "force_x, force_y, force_z"),
     Bad("[engine]", "[compare]\nexact = \"plane_poiseuille\"\n[engine]", "compare.exact", "no plane Poiseuille flow"),
@@ -240,7 +211,7 @@ const BAD: &[Bad] = &[
     Bad("rolling_resistance = 0.05", "substeps = 1", "contact.substeps", "2 sub-steps or more"),
     Bad("duration = 6e-4", "duration = 1e-12", "contact.duration", "sub-steps"),
     Bad("internal_fluid = \"lagged\"", "internal_fluid = \"implicit\"", "coupling.internal_fluid", "lagged, kept"),
-    Bad("internal_fluid = \"lagged\"", "average_loads = 2", "coupling.average_loads", "a boolean"),
+    Bad("internal_fluid = \"lagged\"", "average_loads = 2", "coupling.average_loads", "true or false"),
     Bad("[coupling]", "[lubrication]\n[coupling]", "lubrication", "mirror plane"),
     Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\nsmallest_gap = -1e-9", "lubrication.smallest_gap", "above 0"),
     Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\ncutoff_gap = 1e-9", "lubrication.cutoff_gap", "a thousandth"),
@@ -374,12 +345,47 @@ fn wrong_changes_on_the_command_line_are_refused() {
         ("time.tau=0.5", "above 0.5"),
         ("time.tua=0.6", "did you mean `tau`?"),
         ("title.x=1", "no such"),
+        ("tau=0.6", "did you mean `time.tau`?"),
+        ("y_high.kind=\"wall\"", "did you mean `faces.y_high`?"),
+        ("records[0]=5", "a section, not a value"),
+        ("records[0].=5", "is no key"),
+        ("records[0x]=5", "is no key"),
+        ("records[-1].name=a", "is no key"),
+        ("grains[0]={ kind = \"sphere\" }", "grains[0].centre"),
+        ("grains[0].diameter.x=1", "no such key"),
+        ("records={ name = \"z\", kind = \"box\" }", "write [[records]]"),
+        ("grains=5", "write [[grains]]"),
+        ("domain.cells=[8, 8, 8, 99]", "4 are given"),
     ] {
         let output = psmrt_in(&folder.path(""), &["run", "scene.toml", "--set", change]);
         assert_eq!(output.status.code(), Some(2), "{change}");
         assert!(stderr(&output).contains(told), "{change}: {}", stderr(&output));
     }
+    let twice = ["check", "scene.toml", "--set", "time.tau=0.7", "--set", "time . tau=0.9"];
+    let engine = ["check", "scene.toml", "--set", "engine.kind=reference", "--engine", "wgpu"];
+    for arguments in [twice, engine] {
+        let output = psmrt_in(&folder.path(""), &arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains("set twice"), "{arguments:?}: {}", stderr(&output));
+    }
     assert_eq!(folder.entries(), ["scene.toml"]);
+}
+
+#[test]
+fn a_section_set_on_the_command_line_replaces_the_section() {
+    let grain = "grains[0]={kind=\"sphere\",centre=[3e-4,2.5e-4,2.5e-4],diameter=1.5e-4}";
+    let changes = [grain, "records[1]={name=\"z\",kind=\"box\"}", "stop.steps=7"].map(String::from);
+    let scene = Scene::from_bytes("s", GOOD.as_bytes().to_vec(), Path::new(""), &changes).unwrap();
+    let solids = &scene.setup.solid_phase.as_ref().unwrap().solids;
+    // 1.5e-4 m and twice 1e-4 m in cells of 2.5e-5 m.
+    let expected = [3.0, 2.0, 2.0].map(|radius| Shape::Sphere { radius });
+    assert_eq!(solids.len(), 3);
+    for (solid, right) in solids.iter().zip(expected) {
+        assert_eq!(format!("{:.9?}", solid.shape), format!("{right:.9?}"));
+    }
+    let names: Vec<&str> = scene.records.iter().map(|record| record.name.as_str()).collect();
+    assert_eq!(names, ["box", "z", "all"]);
+    assert_eq!(scene.stop.steps, 7);
 }
 
 #[test]
