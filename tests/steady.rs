@@ -85,7 +85,10 @@ fn a_channel_is_steady_within_the_tolerance_of_its_exact_flow_at_any_spacing_of_
             let steps = engine.steps() as f64;
             let due = steps / (9.0 / 8.0) - 2.0 * every as f64 - 0.02 * steps;
             let was = missing(due, nu);
-            assert!(was > tolerance, "{what}: {steps} steps; after {due} only {was:e} were missing");
+            assert!(
+                was > tolerance,
+                "{what}: {steps} steps; after {due} only {was:e} were missing"
+            );
         }
     }
 }
@@ -105,7 +108,10 @@ fn an_exponential_approach_has_its_rest_to_go() {
             let late = if rows > 256 { 128.0 / f64::from(rows) * end } else { 0.0 };
             let left = history.left().unwrap();
             let allowed = rest * (1.0 - 1e-9)..=rest * (2.0 * late).exp() * (1.0 + 1e-9);
-            assert!(allowed.contains(&left), "{rows} rows to t = {end}: {left:e}, {rest:e} is right");
+            assert!(
+                allowed.contains(&left),
+                "{rows} rows to t = {end}: {left:e}, {rest:e} is right"
+            );
         }
     }
 }
@@ -113,7 +119,8 @@ fn an_exponential_approach_has_its_rest_to_go() {
 #[test]
 fn a_slow_approach_is_seen_behind_a_fast_one() {
     // A tenth goes a hundred times slower: when the fast part has gone, the rest is as good as all of that.
-    let history = |end| History::of(&values(1000, end, |t| 1.0 - (-t).exp() - 0.1 * (-t / 100.0).exp()));
+    let history =
+        |end| History::of(&values(1000, end, |t| 1.0 - (-t).exp() - 0.1 * (-t / 100.0).exp()));
     for end in [14.0_f64, 20.0, 50.0] {
         let rest = 0.1 * (-end / 100.0).exp();
         let left = history(end).left().unwrap();

@@ -47,7 +47,8 @@ pub(super) fn execute(
     // A run that failed on a full disk should say that, not that its facts cannot be written.
     let facts = write_facts(scene, engine, folder, (first_step, start), (word, end.as_ref().ok()));
     let (end, facts) = (end?, facts?);
-    let verdict = if let End::NotSteady { .. } = end { Err(CommandError::NotSteady) } else { Ok(()) };
+    let verdict =
+        if let End::NotSteady { .. } = end { Err(CommandError::NotSteady) } else { Ok(()) };
     if end == End::Interrupted {
         return Err(CommandError::Interrupted { folder: folder.display().to_string() });
     }

@@ -58,10 +58,9 @@ pub(super) fn to_text(scene: &Scene, engine: &dyn Engine) -> String {
                 )
             }
             What::Loads => format!("force on all grains {} N", vector(force_row(scene, engine))),
-            What::Profile { .. }
-            | What::Fields { .. }
-            | What::Slice { .. }
-            | What::Grains => continue,
+            What::Profile { .. } | What::Fields { .. } | What::Slice { .. } | What::Grains => {
+                continue;
+            }
         };
         lines.push(format!("  {:<width$}  {words}", record.name));
     }
@@ -112,7 +111,9 @@ pub(super) fn not_steady(scene: &Scene, engine: &dyn Engine, end: End) -> Option
             format!("{what}, of which no share is a tolerance; watch a column that does not vanish")
         }
         None => {
-            format!("{what}, and its rows are too few to tell more; {longer}, or take rows more often")
+            format!(
+                "{what}, and its rows are too few to tell more; {longer}, or take rows more often"
+            )
         }
     })
 }
