@@ -6,6 +6,7 @@ use super::bench::collision_changes;
 use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table, poiseuille_figures};
 use crate::exact::Comparison;
 use crate::output::records::profile_rows;
+use crate::scene::check::records::middle;
 
 /// Plane Poiseuille flow.
 pub const CASE: Case = Case {
@@ -107,7 +108,7 @@ fn row(
     let Some(exact) = &run.scene.exact else {
         return Err(CaseError::Table(format!("{scene} has no exact solution")));
     };
-    let middle = run.scene.setup.domain.cells().map(|n| n / 2);
+    let middle = middle(&run.scene.setup.domain);
     let profile = profile_rows(&run.scene, run.engine.as_ref(), exact.across, middle);
     let along: Vec<f64> = profile.iter().map(|row| row[2 + exact.along]).collect();
     let found = Comparison::new(exact, &along);

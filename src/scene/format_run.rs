@@ -12,7 +12,9 @@ use super::format::Triple;
 pub struct RecordSection {
     /// Name of the record and of its file: letters, digits, `-` and `_`.
     pub name: String,
-    /// `box` (means over the box), `profile` (a line of cells), `loads` (place, motion, force and
+    /// `box` (means over the box: the superficial velocity is the mass flux over the fluid's density, cells in
+    /// grains included: the mean of their momentum before and after a collision; that of the first row is what
+    /// the flow starts with), `profile` (values along a line), `loads` (place, motion, force and
     /// torque of each grain), `grain_means` (means over the free grains), `slice` (a picture of a
     /// plane), `fields` (all cells) or `grains` (all grains, for ParaView).
     pub kind: RecordKind,
@@ -23,13 +25,19 @@ pub struct RecordSection {
     /// With `profile`: the axis along which the line runs; with `slice`: the axis that the plane is
     /// normal to.
     pub axis: Option<AxisName>,
-    /// With `profile` and `slice`: a point on the line or plane, m; the middle of the box where
-    /// absent.
+    /// With `profile` and `slice`: a point on the line or plane, m; the middle of the box where absent. Between
+    /// the centres of cells (in the middle of an even number of them, say) values are interpolated linearly from
+    /// the two or four nearest lines or planes of cells, those in grains included, across periodic faces too;
+    /// nearer than half a cell to other faces the two nearest ones are continued linearly.
     pub point: Option<Triple>,
     /// With `slice`: what the colours show; `speed` where absent.
     pub quantity: Option<Quantity>,
+    /// With `slice`: the values at the lower and the upper end of the colours, in m/s or Pa, the same for all
+    /// pictures of the record; values beyond have the colour of the end. Where absent each picture has its own.
+    pub range: Option<[f64; 2]>,
     /// With `fields`: `vti` (ParaView, single precision), `npy` (NumPy, double precision) or both;
-    /// `vti` where absent.
+    /// `vti` where absent. The axes of an `npy` array are z, y, x and, of vectors, component: `velocity[k, j, i, 0]`
+    /// is the velocity along x at x = (i + 1/2) dx, y = (j + 1/2) dx, z = (k + 1/2) dx, m/s; `pressure` is in Pa.
     pub formats: Option<Vec<FieldFormat>>,
 }
 
