@@ -301,40 +301,6 @@ fn files_that_are_no_scenes_are_refused() {
 }
 
 #[test]
-fn wrong_lists_of_grains_name_their_line() {
-    let scene = GOOD.replace(
-        "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4",
-        "kind = \"csv\"\nfile = \"grains.csv\"",
-    );
-    let head = "x (m),y (m),z (m),diameter (m)\n";
-    let folder = Folder::new("lists");
-    folder.write("scene.toml", scene);
-    for (list, told) in [
-        ("x,y,z,d\n1,2,3,4\n".to_owned(), "column 1 is \"x\", not \"x (m)\""),
-        (format!("{head}1e-4,2e-4,2e-4\n"), "line 2"),
-        (format!("{head}3e-4,2.5e-4,2.5e-4,2e-4\n1e-4,two,2e-4,1e-4\n"), "line 3: y (m) = \"two\""),
-        (format!("{head}1e-4,2e-4,2e-4,-1e-4\n"), "diameter (m) = \"-1e-4\""),
-        (format!("{head}1e-4,2e-4,NaN,1e-4\n"), "z (m) = \"NaN\""),
-        (head.to_owned(), "no grains in it"),
-        (head.replace('\n', ",density (kg/m3),colour\n"), "a column too many"),
-        (head.replace('\n', ",density\n"), "column 5 is \"density\""),
-        (
-            head.replace('\n', ",density (kg/m3)\n3e-4,2.5e-4,2.5e-4,2e-4,-1\n"),
-            "density (kg/m3) = \"-1\"",
-        ),
-        (format!("{head}3e-4,2.5e-4,2.5e-4,2e-4\n3e-4,2.5e-4,2.5e-4,2e-4\n"), "overlap"),
-    ] {
-        folder.write("grains.csv", &list);
-        let output = check(&folder, "scene.toml");
-        let said = stderr(&output);
-        assert_eq!(output.status.code(), Some(2), "{list}\n{said}");
-        assert!(said.contains(told) && said.contains("grains[0].file"), "{list}\n{said}");
-    }
-    folder.write("grains.csv", format!("{head}3e-4,2.5e-4,2.5e-4,2e-4\n"));
-    assert!(check(&folder, "scene.toml").status.success());
-}
-
-#[test]
 fn wrong_changes_on_the_command_line_are_refused() {
     let folder = Folder::new("set");
     folder.write("scene.toml", GOOD);

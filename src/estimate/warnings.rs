@@ -6,6 +6,7 @@ mod contacts;
 mod density;
 mod faces;
 mod gravity;
+mod lists;
 mod records;
 mod scales;
 pub(crate) mod stability;
@@ -14,7 +15,7 @@ use super::Warning;
 use crate::scene::Scene;
 
 /// The topics, in the order in which they are told.
-const TOPICS: [fn(&Scene) -> Vec<Warning>; 8] = [
+const TOPICS: [fn(&Scene) -> Vec<Warning>; 9] = [
     scales::warnings,
     accuracy::warnings,
     faces::warnings,
@@ -22,6 +23,7 @@ const TOPICS: [fn(&Scene) -> Vec<Warning>; 8] = [
     density::warnings,
     contacts::warnings,
     stability::warnings,
+    lists::warnings,
     records::warnings,
 ];
 

@@ -17,8 +17,9 @@ pub struct GrainsSection {
     /// With all kinds but `csv`: diameter, m.
     pub diameter: Option<f64>,
     /// With `csv`: the file, relative to the scene. Its first line is
-    /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own; each
-    /// further line is a grain.
+    /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own, the
+    /// columns in any order, `radius (m)` instead of the diameter if you like; each further line is a
+    /// grain. Blank lines and lines that begin with `#` are left out.
     pub file: Option<String>,
     /// With `array`: `sc` (simple cubic), `bcc` (body-centred) or `fcc` (face-centred).
     pub lattice: Option<LatticeName>,

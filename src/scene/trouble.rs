@@ -28,6 +28,14 @@ impl Trouble {
     ) -> Self {
         Trouble { key: key.into(), problem: problem.into(), remedy: remedy.into() }
     }
+
+    /// The same about a line of the file that the key names.
+    pub(super) fn on_line(self, line: Option<usize>) -> Self {
+        match line {
+            Some(line) => Trouble { problem: format!("line {line}: {}", self.problem), ..self },
+            None => self,
+        }
+    }
 }
 
 /// A scene that cannot be run: the one message that the user gets. Exit code 2.

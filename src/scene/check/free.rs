@@ -217,8 +217,11 @@ fn trouble(error: &GrainError, list: &GrainList) -> Trouble {
         GrainError::Law(error) => super::contact::trouble(error),
         GrainError::BoxTooShort { .. } => Trouble::new("domain", error.to_string(), change),
         GrainError::BadGrain { grain, .. } => {
-            let key = list.grains.get(*grain).map_or("grains", |listed| &listed.key);
-            Trouble::new(key, error.to_string(), change)
+            let problem = error.to_string();
+            match list.grains.get(*grain) {
+                Some(listed) => listed.trouble(problem, change),
+                None => Trouble::new("grains", problem, change),
+            }
         }
         GrainError::Lubrication(_) => Trouble::new("lubrication", error.to_string(), change),
         GrainError::Substep(error) => substep_trouble(error),

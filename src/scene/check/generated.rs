@@ -173,6 +173,7 @@ fn balls(packing: Result<Packing, PackingError>, place: &Place) -> Result<Vec<Ba
         si_centre: grain.position.into(),
         si_diameter: 2.0 * grain.radius,
         si_density: None,
+        line: None,
     };
     Ok(packing.grains.iter().map(ball).collect())
 }

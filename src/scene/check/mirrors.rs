@@ -42,7 +42,7 @@ pub(super) fn centred(
                     );
                     let remedy = "move it away, or put its centre on the plane: half of it is then \
                                   computed";
-                    return Err(Trouble::new(&listed.key, problem, remedy));
+                    return Err(listed.trouble(problem, remedy));
                 }
             }
             if found[axis][side] {
@@ -76,7 +76,7 @@ fn alone(
                  if they touched, the mirror image of the contact would be missing"
             );
             let remedy = "put all centres on the plane or none";
-            return Err(Trouble::new(&listed.key, problem, remedy));
+            return Err(listed.trouble(problem, remedy));
         }
         // The image has the opposite velocity along the normal, and the opposite spin across it.
         let across = (0..3).any(|other| other != axis && listed.spin[other] != 0.0);
@@ -86,7 +86,7 @@ fn alone(
                  nor spin about another axis"
             );
             let remedy = "set these components to 0, or move the grain off the plane";
-            return Err(Trouble::new(&listed.key, problem, remedy));
+            return Err(listed.trouble(problem, remedy));
         }
     }
     Ok(())

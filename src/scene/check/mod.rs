@@ -12,6 +12,8 @@ mod generated;
 mod grain_kinds;
 pub mod grain_list;
 pub mod grains;
+mod list_header;
+mod list_text;
 mod mirrors;
 mod neighbours;
 mod numbers;

@@ -79,8 +79,9 @@ pub(super) fn apart(domain: &Domain, grains: &[Listed], units: &Units) -> Result
             if overlap > MAX_OVERLAP * 2.0 * a.2.min(b.2) {
                 let (first, second) = (a.0.min(b.0), a.0.max(b.0));
                 let problem = format!(
-                    "grains {first} and {second} (counted from 0) overlap by {:.3e} m; {:.0} % of \
-                     the smaller diameter is the limit",
+                    "{} and {} overlap by {:.3e} m; {:.0} % of the smaller diameter is the limit",
+                    grains[first].name(first),
+                    grains[second].name(second),
                     overlap * units.si_dx,
                     100.0 * MAX_OVERLAP
                 );
