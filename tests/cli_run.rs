@@ -91,7 +91,7 @@ fn a_run_that_is_not_steady_says_so_and_by_how_much() {
     let folder = Folder::new("not_steady");
     // Startup of the plates: the slowest part falls by e in H²/(π² ν), the 1038 steps of 32 cells at tau 0.8; the
     // fastest of the rest by as much in a ninth of that.
-    Budget::oracle(3 * 32 * 6000).spend(3 * 32 * 6000);
+    Budget::oracle(576_000).spend(3 * 32 * 6000);
     let run = |name: &str, more: &[&str]| {
         let out = folder.path(name);
         let mut arguments = vec!["run", POISEUILLE, "--out", out.to_str().unwrap()];

@@ -13,7 +13,7 @@ use super::progress::Progress as ProgressBar;
 use super::{CommandError, comparison, info, profile, summary, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
-use crate::estimate::{Warning, warnings};
+use crate::estimate::{Warning, disk, warnings};
 use crate::output::{atomic, csv, grain_plots, plot};
 use crate::run::{End, run as run_scene};
 use crate::scene::{Scene, What};
@@ -31,7 +31,7 @@ pub(super) fn execute(
 ) -> Result<(), CommandError> {
     let (start, first_step) = (Instant::now(), engine.steps());
     if !json {
-        warn(scene);
+        warn(scene, folder);
     }
     write_facts(scene, engine, folder, (first_step, start), ("running", None))?;
     let mut progress = ProgressBar::new(scene, json, interruption());
@@ -98,11 +98,18 @@ pub(super) fn execute(
 }
 
 /// Says beforehand what looks risky, a line each; `run.json` and `--json` have it too.
-fn warn(scene: &Scene) {
-    for Warning { reason, remedy } in warnings(scene) {
+fn warn(scene: &Scene, folder: &Path) {
+    for Warning { reason, remedy } in all_warnings(scene, folder) {
         // Whoever has closed this has decided not to be warned.
         let _ = writeln!(std::io::stderr(), "warning: {reason} (help: {remedy})");
     }
+}
+
+/// What looks risky about the scene, and about where it writes.
+fn all_warnings(scene: &Scene, folder: &Path) -> Vec<Warning> {
+    let mut all = warnings(scene);
+    all.extend(disk::warnings(scene, folder));
+    all
 }
 
 /// Draws the records that a curve can show.
@@ -171,7 +178,7 @@ fn write_facts(
         "dt_s": scene.units.si_dt,
         "dx_m": scene.units.si_dx,
         "tau": scene.setup.collision.tau(),
-        "warnings": warnings(scene),
+        "warnings": all_warnings(scene, folder),
         "steady": end.map(|&end| summary::steady(scene, engine, end)),
         "results": end.map(|_| summary::results(scene, engine)),
         "files": {

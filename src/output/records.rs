@@ -135,7 +135,7 @@ fn table_path(record: &Record, folder: &Path) -> PathBuf {
 }
 
 /// The columns of a record that is a table.
-fn columns(record: &Record) -> Option<Vec<Column>> {
+pub fn columns(record: &Record) -> Option<Vec<Column>> {
     let own: &[Column] = match record.what {
         What::Box => &BOX_COLUMNS,
         What::Profile { .. } => &PROFILE_COLUMNS,

@@ -18,7 +18,7 @@ pub struct RecordSection {
     /// torque of each grain), `grain_means` (means over the free grains), `slice` (a picture of a
     /// plane), `fields` (all cells) or `grains` (all grains, for ParaView).
     pub kind: RecordKind,
-    /// Time between rows, s.
+    /// Time between rows, s: rounded to whole time steps, at least one.
     pub every: Option<f64>,
     /// Steps between rows.
     pub every_steps: Option<i64>,

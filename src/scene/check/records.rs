@@ -20,6 +20,8 @@ pub struct Record {
     pub what: What,
     /// How often it is taken.
     pub rhythm: Rhythm,
+    /// The time between rows that the scene asks for, if it gives one, s.
+    pub si_every: Option<f64>,
 }
 
 /// What a record holds.
@@ -116,7 +118,7 @@ pub(super) fn records(
             }
         };
         let what = what(section, &at, setup, free, units)?;
-        records.push(Record { name: section.name.clone(), what, rhythm });
+        records.push(Record { name: section.name.clone(), what, rhythm, si_every: section.every });
     }
     Ok(records)
 }
