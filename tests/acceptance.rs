@@ -49,12 +49,12 @@ fn flow_in_a_duct_holds_its_claims() {
 
 #[test]
 fn a_sphere_in_a_stream_holds_its_claims() {
-    holds("sphere_drag", &mut Budget::oracle(61_500_000));
+    holds("sphere_drag", &mut Budget::oracle(57_500_000));
 }
 
 #[test]
 fn seepage_through_a_bed_holds_its_claims() {
-    holds("seepage", &mut Budget::oracle(27_200_000));
+    holds("seepage", &mut Budget::oracle(24_500_000));
 }
 
 #[test]
