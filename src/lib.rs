@@ -23,6 +23,7 @@
 //! | [`provenance`] | which commit results come from, and which day |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![warn(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads: see command/say.rs
 
 pub mod cases;
 pub mod checkpoint;

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use common::Budget;
 use psmrt::engine::{Engine, ReferenceEngine};
+use psmrt::output::folder::RunFolder;
 use psmrt::run::steady::History;
 use psmrt::run::{End, Watcher, run};
 use psmrt::scene::Scene;
@@ -71,7 +72,8 @@ fn a_channel_is_steady_within_the_tolerance_of_its_exact_flow_at_any_spacing_of_
             let scene = channel(every, tolerance);
             let mut engine = ReferenceEngine::new(&scene).unwrap();
             let folder = tempfile::tempdir().unwrap();
-            let end = run(&scene, &mut engine, folder.path(), None, &mut GoOn).unwrap();
+            let held = RunFolder::open(folder.path()).unwrap();
+            let end = run(&scene, &mut engine, &held, None, &mut GoOn).unwrap();
             budget.spend(8 * engine.steps());
             let what = format!("tolerance {tolerance:e}, a row every {every} steps");
             assert!(matches!(end, End::Steady { .. }), "{what}: {end:?}");

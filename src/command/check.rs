@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use super::execute::say;
+use super::say::say;
 use super::{CommandError, engine};
 use crate::estimate::{calibrate, disk, models, numbers, warnings};
 use crate::scene::Scene;

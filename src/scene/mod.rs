@@ -107,14 +107,16 @@ impl Scene {
         Ok(Scene { text: source.text, ..scene })
     }
 
-    /// The same scene with its text naming the copies of its files: [`Attachment::file_name`].
-    pub fn with_copied_attachments(self) -> Result<Self, Box<SceneError>> {
-        let changes: Vec<String> = self
-            .attachments
-            .iter()
-            .map(|copy| format!("grains[{}].file=\"{}\"", copy.section, copy.file_name()))
-            .collect();
+    /// The same scene as a run keeps it, so that it goes on with the same: its text names the copies of its
+    /// files ([`Attachment::file_name`]), and the `engine` that computes it where that was left open.
+    pub fn as_run(self, engine: EngineKind) -> Result<Self, Box<SceneError>> {
+        let copy =
+            |list: &Attachment| format!("grains[{}].file=\"{}\"", list.section, list.file_name());
+        let mut changes: Vec<String> = self.attachments.iter().map(copy).collect();
+        if self.engine != engine {
+            changes.push(format!("engine.kind=\"{}\"", engine.word()));
+        }
         let source = Source::new("scene.toml", self.text.into_bytes(), &changes)?;
-        Ok(Scene { text: source.text, ..self })
+        Ok(Scene { text: source.text, engine, ..self })
     }
 }
