@@ -4,6 +4,7 @@
 mod accuracy;
 mod contacts;
 mod density;
+mod ends;
 mod faces;
 mod gravity;
 mod lists;
@@ -11,15 +12,18 @@ mod prescribed;
 mod records;
 mod scales;
 pub(crate) mod stability;
+mod start;
 
 use super::Warning;
 use crate::scene::Scene;
 
 /// The topics, in the order in which they are told.
-const TOPICS: [fn(&Scene) -> Vec<Warning>; 10] = [
+const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     scales::warnings,
     accuracy::warnings,
     faces::warnings,
+    start::warnings,
+    ends::warnings,
     gravity::warnings,
     density::warnings,
     contacts::warnings,
@@ -31,7 +35,7 @@ const TOPICS: [fn(&Scene) -> Vec<Warning>; 10] = [
 
 /// All that looks risky.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    TOPICS.into_iter().flat_map(|topic| topic(scene)).collect()
+    TOPICS.iter().flat_map(|topic| topic(scene)).collect()
 }
 
 /// A warning.

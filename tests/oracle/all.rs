@@ -27,6 +27,7 @@ mod grains_packing;
 mod grains_rolling;
 mod grains_system;
 mod guard;
+mod guard_causes;
 mod leakage;
 mod limits;
 mod moments;
