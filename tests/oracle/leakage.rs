@@ -82,7 +82,7 @@ fn slab_leaks_half_the_force_on_each_layer_whatever_tau_operator_and_collision()
                     // full cell gathers (last test) is 4 j² a step and layer: 1e-7 of j.
                     assert!(
                         (j / expected - 1.0).abs() < 1e-6,
-                        "{collision:?}: flux through the slab {j:e}, not {expected:e}"
+                        "{collision:?} {operator:?}, {layers} layers, cell {cell}: flux {j:e}, not {expected:e}"
                     );
                 }
             }
@@ -148,7 +148,7 @@ fn thick_solid_slides_as_one_block_under_bounce_back_at_every_tau() {
                 // Round-off as above, and the approach: 30,000 steps are 30 times the slowest time.
                 assert!(
                     (j / expected - 1.0).abs() < 1e-6,
-                    "{collision:?}: {j:e}, not {expected:e}"
+                    "{collision:?}: flux through the slab {j:e}, not {expected:e}"
                 );
             }
         }
