@@ -98,7 +98,11 @@ fn free_grains_move_as_in_the_oracle() {
         // The load of a step is off by about 1e-6 (tests/kernel_runs.rs: 2 ε of gauges below 0.3, times
         // √(10 · 200)), the grain weighs 65 or more: 2e-8 a step, independent from step to step.
         let bound = 2e-8 * (STEPS as f64).sqrt();
-        assert!(off < bound, "{off:e} > {bound:e}");
+        assert!(
+            off < bound,
+            "a grain's velocity on the kernel is off the oracle's by {off:e}; single precision \
+             explains {bound:e}",
+        );
         assert!((found.centre - expected.centre).norm() < bound * STEPS as f64);
         // A grain that were not driven at all would be off by all of its speed.
         assert!(speed > 100.0 * bound, "the grains must move for this to say anything");
@@ -202,10 +206,15 @@ fn every_golden_scene_starts_and_steps_alike_on_both_engines() {
         let worst = errors.fold(0.0, f64::max);
         println!("{}: off by {worst:.1e}, allowed {bound:.1e}", path.display());
         assert!(gauge > 0.0, "{}: nothing moves", path.display());
-        assert!(worst < bound, "{}: {worst:e} > {bound:e}", path.display());
+        assert!(
+            worst < bound,
+            "{}: records of the kernel are off the oracle's by {worst:e}, round-off of single \
+             precision explains {bound:e}",
+            path.display(),
+        );
         tried += 1;
     }
-    assert!(tried >= 15, "{tried} scenes");
+    assert!(tried >= 15, "only {tried} scenes were compared: were they moved?");
 }
 
 /// The bits of a state.
