@@ -30,6 +30,7 @@ mod guard;
 mod leakage;
 mod limits;
 mod moments;
+mod momentum_balance;
 mod poiseuille;
 mod ps_channel_wall;
 mod reproducible;

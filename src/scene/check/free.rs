@@ -12,7 +12,7 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use super::contact::{Laws, laws, mirror, substeps};
 use super::grains::{GrainList, Listed};
 use super::numbers::finite;
-use super::{MAX_SPEED, Trouble, mirrors};
+use super::{MAX_SPEED, Trouble, balance, mirrors};
 use crate::scene::format::SceneFile;
 use crate::scene::format_free::{GravityForm, GravitySection, InternalFluidName};
 use crate::scene::format_grains::Motion;
@@ -62,6 +62,9 @@ pub(super) fn free_part(
     let contact = file.contact.clone().unwrap_or_default();
     let laws = laws(&contact, lightest, units)?;
     let gravity = file.gravity.as_ref().map(|section| gravity(section, units)).transpose()?;
+    if file.gravity.as_ref().is_some_and(|section| section.balance) {
+        balance::check(file, list, domain)?;
+    }
     let mirrored = mirrors::centred(domain, list, gravity.as_ref(), units)?;
     let planes = planes(domain, &laws, &mirrored);
     let lubrication = lubrication(file, list, domain, &mirrored, tau, units)?;
@@ -129,16 +132,10 @@ fn gravity(section: &GravitySection, units: &Units) -> Result<Gravity, Trouble> 
         return Err(Trouble::new(key, problem, "use a shorter time step"));
     }
     Ok(match section.form {
+        GravityForm::Reduced if section.balance => Gravity::Balanced { acceleration },
         GravityForm::Reduced => Gravity::Reduced { acceleration },
         GravityForm::BodyForce => Gravity::OnFluidToo { acceleration },
     })
-}
-
-/// The acceleration of either form.
-pub(super) fn acceleration(gravity: &Gravity) -> Vec3 {
-    match *gravity {
-        Gravity::Reduced { acceleration } | Gravity::OnFluidToo { acceleration } => acceleration,
-    }
 }
 
 /// The faces as planes: walls with their velocity, mirrors as what they mirror, and inlets, outflows
