@@ -165,6 +165,9 @@ pub const BAD: &[Bad] = &[
     Bad("\"wall\", velocity = [1e-3, 0.0, 0.0]", "\"wall\", velocity = [0.0, 1e-3, 0.0]", "faces.y_low.velocity", "its own plane"),
     Bad("axis = \"x\"\npoint", "axis = \"x\"\nformats = [\"vti\"]\npoint", "records[1].formats", "belongs to"),
     Bad("axis = \"x\"\npoint", "axis = \"x\"\nquantity = \"speed\"\npoint", "records[1].quantity", "belongs to"),
+    Bad("axis = \"x\"\npoint", "axis = \"x\"\nrange = [0.0, 1.0]\npoint", "records[1].range", "belongs to"),
+    Bad("kind = \"profile\"", "kind = \"slice\"\nrange = [1.0, 0.5]", "records[1].range", "must be above its first"),
+    Bad("kind = \"profile\"", "kind = \"slice\"\nrange = [0.0, inf]", "records[1].range", "must be finite"),
     Bad("record = \"box\"", "record = \"line\"", "stop.steady.record", "not of kind `box`"),
     Bad("record = \"box\"", "record = \"boks\"", "stop.steady.record", "no record of that name"),
     Bad("every_steps = 100\n", "", "stop.steady.record", "add `every_steps = 100`"),
@@ -174,6 +177,7 @@ pub const BAD: &[Bad] = &[
     // Grains.
     Bad("diameter = 2e-4", "diameter = -2e-4", "grains[0].diameter", "above 0"),
     Bad("diameter = 2e-4", "diameter = 4e-5", "grains[0].diameter", "cells across"),
+    Bad("diameter = 2e-4", "diameter = 200.0", "grains[0].diameter", "far larger than the domain (1.0000e-3 x 5.0000e-4 x 5.0000e-4 m)"),
     Bad("diameter = 2e-4", "diameter = 2e-4\nlattice = \"sc\"", "grains[0].lattice", "belongs to"),
     Bad("diameter = 2e-4", "diameter = 2e-4\nspin = [0.0, 0.0, 1.0]", "grains[0].spin", "belongs to"),
     Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [3e-3, 2.5e-4, 2.5e-4]", "grains[0].centre", "outside the box"),
