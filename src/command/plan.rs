@@ -44,18 +44,25 @@ pub struct PlanRequest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted(pub f64);
 
+/// A part of a whole, as a number or in percent; `example` says how it is written.
+pub(super) fn part(text: &str, example: &str) -> Result<f64, String> {
+    let (number, percent) = match text.trim().strip_suffix('%') {
+        Some(number) => (number.trim_end(), true),
+        None => (text.trim(), false),
+    };
+    let value: Result<f64, _> = number.parse();
+    let value = value
+        .map_err(|_| format!("{} is no number: write it as {example}", quote::quoted(text)))?;
+    // Divided, so that 40% is the same number as 0.4.
+    Ok(if percent { value / 100.0 } else { value })
+}
+
 impl std::str::FromStr for Wanted {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (number, percent) = match text.trim().strip_suffix('%') {
-            Some(number) => (number.trim_end(), true),
-            None => (text.trim(), false),
-        };
-        let value: f64 = number
-            .parse()
-            .map_err(|_| format!("{} is no number: write it as 5% or 0.05", quote::quoted(text)))?;
-        let value = if percent { value / 100.0 } else { value };
+        let value = part(text, "5% or 0.05")?;
+        let percent = text.trim().ends_with('%');
         match value {
             value if value > 0.0 && value < 1.0 => Ok(Wanted(value)),
             value if (1.0..100.0).contains(&value) && !percent => {
