@@ -8,9 +8,11 @@
 mod common;
 #[path = "../tests/parity/mod.rs"]
 mod parity;
+#[path = "../tests/trials/mod.rs"]
+mod trials;
 
+use common::Budget;
 use common::random::Random;
-use common::{Budget, trials};
 use parity::{
     Both, CELLS, G, OPERATORS, WEIGHTINGS, collisions, error_of_one_step, given_fractions,
     mixed_faces, random_state, scenes, waves,

@@ -2,13 +2,14 @@
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 8 | `PSMRTCK1` |
+//! | 8 | `PSMRTCK2`: the digit is the version of this format |
 //! | 8 | length of the header |
 //! | | header, JSON: [`Header`] |
 //! | | the engine's state |
 //! | 8 | XXH3 of all before |
 //!
-//! A file is written under another name, synced and renamed; the last two are kept.
+//! A file is written under another name, synced and renamed; the last two are kept. The header binds it to
+//! its run and to all that the run has read: nothing else is gone on with from it.
 
 use std::fs::{self, File};
 use std::io::{self, BufReader, Read, Write};
@@ -20,9 +21,18 @@ use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
 use crate::engine::Engine;
 use crate::output::atomic;
+use crate::output::csv::Mark;
+use crate::output::folder::{self, RunFolder};
+use crate::output::hashed::Hashed;
 use crate::scene::Scene;
 
-const MAGIC: &[u8; 8] = b"PSMRTCK1";
+/// Name of the folder of a run's checkpoints.
+pub const FOLDER: &str = "checkpoints";
+
+const MAGIC: &[u8; 8] = b"PSMRTCK2";
+
+/// How the magic of all versions begins.
+const ANY_VERSION: &[u8] = b"PSMRTCK";
 
 /// Checkpoints that are kept.
 const KEPT: usize = 2;
@@ -37,23 +47,108 @@ pub struct Header {
     pub version: String,
     /// Engine that wrote it.
     pub engine: String,
-    /// XXH3 of the scene's text.
-    pub scene: u64,
+    /// [`RunFolder::id`] of its run.
+    pub run: String,
+    /// What the run has read.
+    pub inputs: Vec<Input>,
+    /// XXH3 of what psmrt has made of that: grains that it generates, defaults.
+    pub made: u64,
     /// Steps made.
     pub steps: u64,
     /// The time loop's own state.
     pub progress: Progress,
 }
 
+/// A file that a run has read.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Input {
+    /// Its name in the folder of the run.
+    pub name: String,
+    /// XXH3 of its bytes.
+    pub hash: u64,
+}
+
 /// The time loop's own state.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 pub struct Progress {
-    /// Length in bytes of each record's table, 0 for a record that is none.
-    pub table_lengths: Vec<u64>,
+    /// What each record's table holds.
+    pub tables: Vec<Mark>,
     /// Rows in a row that were steady.
     pub quiet_rows: u32,
     /// Bits of the last value that the steady-state criterion saw.
     pub last_value_bits: Option<u64>,
+}
+
+impl Header {
+    fn new(folder: &RunFolder, scene: &Scene, engine: &dyn Engine, progress: Progress) -> Self {
+        Header {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            engine: engine.name().to_owned(),
+            run: folder.id().to_owned(),
+            inputs: inputs(scene),
+            made: made(scene),
+            steps: engine.steps(),
+            progress,
+        }
+    }
+
+    /// What keeps a scene from going on from here, if something does.
+    fn obstacle(&self, folder: &RunFolder, scene: &Scene, engine: &dyn Engine) -> Option<String> {
+        let again = "put it back as it was, or start a new run";
+        for input in inputs(scene) {
+            match self.inputs.iter().find(|known| known.name == input.name) {
+                Some(known) if known.hash == input.hash => {}
+                Some(_) => {
+                    return Some(format!(
+                        "does not fit: {} has been changed since it was written; {again}",
+                        folder.path().join(&input.name).display()
+                    ));
+                }
+                None => {
+                    return Some(format!(
+                        "does not fit: its run has read no {}; {again}",
+                        folder.path().join(&input.name).display()
+                    ));
+                }
+            }
+        }
+        if self.run != folder.id() {
+            return Some(format!(
+                "belongs to another run of this scene, whose tables are not in {}: resume it in its own \
+                 folder",
+                folder.path().display()
+            ));
+        }
+        if self.engine != engine.name() {
+            return Some(format!(
+                "was written by the engine `{}`, and `{}` is to go on: set engine.kind = \"{}\" again",
+                self.engine,
+                engine.name(),
+                self.engine
+            ));
+        }
+        (self.made != made(scene)).then(|| {
+            format!(
+                "was written by psmrt {}, which made other grains or defaults of this scene than this \
+                 psmrt ({}): resume with that one",
+                self.version,
+                env!("CARGO_PKG_VERSION")
+            )
+        })
+    }
+}
+
+/// What a scene was read from.
+fn inputs(scene: &Scene) -> Vec<Input> {
+    let input = |name: String, bytes: &[u8]| Input { name, hash: xxh3_64(bytes) };
+    let lists = scene.attachments.iter().map(|list| input(list.file_name(), &list.bytes));
+    lists.chain([input(folder::SCENE.to_owned(), scene.text.as_bytes())]).collect()
+}
+
+/// A sum of what has been made of a scene, to the last bit of each number.
+fn made(scene: &Scene) -> u64 {
+    let Scene { setup, free, initial_velocity, records, stop, .. } = scene;
+    xxh3_64(format!("{setup:?} {free:?} {initial_velocity:?} {records:?} {stop:?}").as_bytes())
 }
 
 /// A checkpoint that cannot be used.
@@ -79,84 +174,94 @@ pub enum CheckpointError {
 
 /// The folder of a run's checkpoints.
 pub fn folder(run: &Path) -> PathBuf {
-    run.join("checkpoints")
+    run.join(FOLDER)
 }
 
 /// Saves the state of a run and removes all but the last two checkpoints.
 pub fn save(
-    run: &Path,
+    run: &RunFolder,
     scene: &Scene,
     engine: &dyn Engine,
     progress: Progress,
 ) -> Result<PathBuf, CheckpointError> {
-    let steps = engine.steps();
-    let path = folder(run).join(format!("step_{steps:012}.checkpoint"));
-    let header = Header {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        engine: engine.name().to_owned(),
-        scene: xxh3_64(scene.text.as_bytes()),
-        steps,
-        progress,
-    };
-    let written = fs::create_dir_all(folder(run)).and_then(|()| {
-        atomic::write(&path, |file| {
-            let mut out = Hashed { inner: file, hash: Xxh3Default::new() };
-            let header = serde_json::to_vec(&header).map_err(io::Error::other)?;
-            out.write_all(MAGIC)?;
-            out.write_all(&(header.len() as u64).to_le_bytes())?;
-            out.write_all(&header)?;
-            engine.save(&mut out)?;
-            let digest = out.hash.digest();
-            out.inner.write_all(&digest.to_le_bytes())
-        })
+    let header = Header::new(run, scene, engine, progress);
+    let path = folder(run.path()).join(format!("step_{:012}.checkpoint", header.steps));
+    let written = atomic::write(&path, |file| {
+        let mut out = Hashed::new(file);
+        let header = serde_json::to_vec(&header).map_err(io::Error::other)?;
+        out.write_all(MAGIC)?;
+        out.write_all(&(header.len() as u64).to_le_bytes())?;
+        out.write_all(&header)?;
+        engine.save(&mut out)?;
+        let digest = out.digest();
+        out.inner.write_all(&digest.to_le_bytes())
     });
     written.map_err(|error| file_error(&path, error))?;
-    for old in list(run).iter().rev().skip(KEPT) {
+    for old in list(run.path())?.iter().rev().skip(KEPT) {
         fs::remove_file(old).map_err(|error| file_error(old, error))?;
     }
     Ok(path)
 }
 
-/// The checkpoints of a run, the oldest first.
-pub fn list(run: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder(run)).into_iter().flatten().flatten();
-    let mut paths: Vec<PathBuf> = entries
-        .map(|entry| entry.path())
-        .filter(|path| path.extension().is_some_and(|suffix| suffix == "checkpoint"))
-        .collect();
+/// The checkpoints of a run, the oldest first; none if it has no folder for them. Errors if that cannot be
+/// read.
+pub fn list(run: &Path) -> Result<Vec<PathBuf>, CheckpointError> {
+    let folder = folder(run);
+    let failed = |error| file_error(&folder, error);
+    let entries = match fs::read_dir(&folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+        entries => entries.map_err(failed)?,
+    };
+    let mut paths = Vec::new();
+    for entry in entries {
+        let path = entry.map_err(failed)?.path();
+        if path.extension().is_some_and(|suffix| suffix == "checkpoint") {
+            paths.push(path);
+        }
+    }
     paths.sort();
-    paths
+    Ok(paths)
 }
 
-/// Checks a checkpoint from end to end, then puts the engine into its state.
+/// Checks a checkpoint from end to end, and that it belongs to this run, scene and engine.
+pub fn check(
+    path: &Path,
+    run: &RunFolder,
+    scene: &Scene,
+    engine: &dyn Engine,
+) -> Result<Header, CheckpointError> {
+    check_sum(path)?;
+    let (header, _) = open(path).map_err(|error| file_error(path, error))?;
+    match header.obstacle(run, scene, engine) {
+        None => Ok(header),
+        Some(problem) => {
+            Err(CheckpointError::Unusable { path: path.display().to_string(), problem })
+        }
+    }
+}
+
+/// Checks a checkpoint as [`check`] does, then puts the engine into its state.
 pub fn load(
     path: &Path,
+    run: &RunFolder,
     scene: &Scene,
     engine: &mut dyn Engine,
 ) -> Result<Progress, CheckpointError> {
-    let unusable = |problem: &str| CheckpointError::Unusable {
-        path: path.display().to_string(),
-        problem: problem.to_owned(),
-    };
-    check_sum(path)?;
-    let open = || -> io::Result<(Header, BufReader<File>)> {
-        let mut file = BufReader::with_capacity(1 << 20, File::open(path)?);
-        let mut start = [0; 16];
-        file.read_exact(&mut start)?;
-        let length = u64::from_le_bytes(std::array::from_fn(|i| start[8 + i]));
-        let mut header = Vec::new();
-        (&mut file).take(length.min(MAX_HEADER)).read_to_end(&mut header)?;
-        Ok((serde_json::from_slice(&header).map_err(io::Error::other)?, file))
-    };
-    let (header, mut file) = open().map_err(|error| file_error(path, error))?;
-    if header.scene != xxh3_64(scene.text.as_bytes()) {
-        return Err(unusable("belongs to another scene, or the scene has been changed since"));
-    }
-    if header.engine != engine.name() {
-        return Err(unusable(&format!("was written by the engine `{}`", header.engine)));
-    }
+    let header = check(path, run, scene, engine)?;
+    let (_, mut file) = open(path).map_err(|error| file_error(path, error))?;
     engine.load(&mut file).map_err(|error| file_error(path, error))?;
     Ok(header.progress)
+}
+
+/// The header, and the file where the engine's state begins.
+fn open(path: &Path) -> io::Result<(Header, BufReader<File>)> {
+    let mut file = BufReader::with_capacity(1 << 20, File::open(path)?);
+    let mut start = [0; 16];
+    file.read_exact(&mut start)?;
+    let length = u64::from_le_bytes(std::array::from_fn(|i| start[8 + i]));
+    let mut header = Vec::new();
+    (&mut file).take(length.min(MAX_HEADER)).read_to_end(&mut header)?;
+    Ok((serde_json::from_slice(&header).map_err(io::Error::other)?, file))
 }
 
 /// Errors unless the file is a checkpoint and its last 8 bytes are the sum of all before.
@@ -175,7 +280,12 @@ fn check_sum(path: &Path) -> Result<(), CheckpointError> {
     let mut magic = [0; 8];
     from.read_exact(&mut magic).map_err(file)?;
     if magic != *MAGIC {
-        return unusable("is no checkpoint of psmrt (or of another version)");
+        return unusable(if magic.starts_with(ANY_VERSION) {
+            "was written by another version of psmrt, in another format: resume with that version, or \
+             start a new run"
+        } else {
+            "is no checkpoint of psmrt"
+        });
     }
     hash.update(&magic);
     let mut left = length - 16;
@@ -196,22 +306,4 @@ fn check_sum(path: &Path) -> Result<(), CheckpointError> {
 
 fn file_error(path: &Path, error: io::Error) -> CheckpointError {
     CheckpointError::File { path: path.display().to_string(), error }
-}
-
-/// A writer that sums up what goes through it.
-struct Hashed<W> {
-    inner: W,
-    hash: Xxh3Default,
-}
-
-impl<W: Write> Write for Hashed<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = self.inner.write(bytes)?;
-        self.hash.update(&bytes[..count]);
-        Ok(count)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.inner.flush()
-    }
 }

@@ -17,10 +17,13 @@
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
 //! | [`stability`] | where the method survives and where it is right |
+//! | [`input`] | reading of files that the user names |
+//! | [`quote`] | how the user's text stands in messages |
 //! | [`machine`] | what this machine has |
 //! | [`provenance`] | which commit results come from, and which day |
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![warn(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads: see command/say.rs
 
 pub mod cases;
 pub mod checkpoint;
@@ -28,6 +31,7 @@ pub mod command;
 pub mod engine;
 pub mod estimate;
 pub mod exact;
+pub mod input;
 pub mod kernel;
 pub mod machine;
 pub mod oracle;
@@ -35,6 +39,7 @@ pub mod output;
 pub mod packing;
 pub mod plan;
 pub mod provenance;
+pub mod quote;
 pub mod run;
 pub mod scene;
 pub mod stability;

@@ -40,6 +40,13 @@ pub fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
+/// Name of this machine among others, where the system says so.
+pub fn host() -> Option<String> {
+    let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
+    let name = name.or_else(|| std::env::var("COMPUTERNAME").or(std::env::var("HOSTNAME")).ok())?;
+    Some(name.trim().to_owned()).filter(|name| !name.is_empty())
+}
+
 /// The operating system, by the name that it gives itself where it does.
 pub fn system() -> String {
     let own_name = || {

@@ -1,6 +1,7 @@
 //! The command line; what the commands do is in `command/`.
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![warn(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads: see command/say.rs
 
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -16,6 +17,7 @@ use psmrt::command::plan::{PlanRequest, Wanted};
 use psmrt::command::report::ReportRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
+use psmrt::command::say::{say, say_bytes, tell};
 use psmrt::command::stability::StabilityRequest;
 use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
@@ -181,6 +183,7 @@ impl EngineArguments {
     /// The changes of the scene with these among them.
     fn added_to(self, mut set: Vec<String>) -> Result<Vec<String>, CommandError> {
         set.extend(command::engine_changes(self.engine.as_deref(), self.adapter.as_deref())?);
+        psmrt::scene::differ(&set)?;
         Ok(set)
     }
 }
@@ -229,7 +232,10 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         }
         Command::Completions { shell } => {
             let mut command = Arguments::command();
-            clap_complete::generate(shell, &mut command, "psmrt", &mut std::io::stdout());
+            // Generated into memory: that panics where it cannot be written.
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut command, "psmrt", &mut text);
+            say_bytes(&text);
             Ok(())
         }
     }
@@ -241,15 +247,15 @@ fn report(error: &CommandError, json: bool) {
         return; // the verdict is the report
     }
     if json {
-        println!("{}", error.to_json());
+        say(&error.to_json().to_string());
         return;
     }
-    match error {
+    tell(&match error {
         CommandError::Scene(error) if std::io::stderr().is_terminal() => {
-            eprintln!("{}", error.render(&annotate_snippets::Renderer::styled()));
+            error.render(&annotate_snippets::Renderer::styled())
         }
-        CommandError::Scene(error) => eprintln!("{error}"),
-        CommandError::Interrupted { .. } => eprintln!("{error}"),
-        error => eprintln!("error: {error}"),
-    }
+        CommandError::Scene(error) => error.to_string(),
+        CommandError::Interrupted { .. } => error.to_string(),
+        error => format!("error: {error}"),
+    });
 }

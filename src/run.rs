@@ -1,15 +1,17 @@
 //! The time loop: steps, records, checkpoints, and when to stop.
 
+use std::fs;
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
 use crate::engine::{Engine, EngineStop};
-use crate::output::grain_means;
+use crate::output::folder::RunFolder;
 use crate::output::records::{Recorder, box_row, force_row};
+use crate::output::{grain_means, names};
 use crate::scene::{Interval, Rhythm, Scene, Steady, What};
 
 /// A run that could not go on.
@@ -24,6 +26,31 @@ pub enum RunError {
     /// Its state cannot be saved.
     #[error("the checkpoint cannot be written: {0}; what was written before is whole")]
     Checkpoint(#[from] CheckpointError),
+    /// A table that a resumed run should go on with is not the one that it has written.
+    #[error("{0}; put it back as it was, or start a new run: nothing has been changed")]
+    Table(io::Error),
+    /// Its folder, or something in it, has been moved or removed while it ran.
+    #[error(
+        "the folder {path}, or a part of it, has been moved or removed while the run wrote into it: {rescue}"
+    )]
+    Gone {
+        /// Where it was.
+        path: String,
+        /// What has been saved elsewhere, and how to go on.
+        rescue: String,
+    },
+}
+
+impl RunError {
+    /// Whether a file or folder that was there has gone.
+    fn misses_a_file(&self) -> bool {
+        let (RunError::Write(error) | RunError::Checkpoint(CheckpointError::File { error, .. })) =
+            self
+        else {
+            return false;
+        };
+        error.kind() == io::ErrorKind::NotFound
+    }
 }
 
 /// Why a run ended.
@@ -37,16 +64,35 @@ pub enum End {
     Interrupted,
 }
 
-/// Removes the tables that a run cut off before its first checkpoint has left, so that it can start
-/// again. Errors if one cannot be removed.
-pub fn forget_records(scene: &Scene, folder: &Path) -> io::Result<()> {
+/// Sets aside the tables that a run cut off before its first checkpoint has left, so that it can start
+/// again: `box.csv` becomes `box.csv.old`, or `box.csv.old-2` if there is one. Returns their new names.
+pub fn set_aside(scene: &Scene, folder: &RunFolder) -> io::Result<Vec<PathBuf>> {
+    let mut moved = Vec::new();
     for record in &scene.records {
-        let table = folder.join(format!("{}.csv", record.name));
-        if table.exists() {
-            std::fs::remove_file(table)?;
+        let table = folder.path().join(names::table(&record.name));
+        if !table.exists() {
+            continue;
         }
+        let other = |number: u64| match number {
+            1 => table.with_extension("csv.old"),
+            _ => table.with_extension(format!("csv.old-{number}")),
+        };
+        let Some(free) = (1..).map(other).find(|path| !path.exists()) else { continue };
+        fs::rename(&table, &free)?;
+        moved.push(free);
     }
-    Ok(())
+    Ok(moved)
+}
+
+/// Errors unless the tables of a run begin as they did when a checkpoint was written. Changes nothing.
+pub fn check_tables(scene: &Scene, folder: &Path, progress: &Progress) -> Result<(), RunError> {
+    reopen(scene, folder, progress).map(|_| ()).map_err(RunError::Table)
+}
+
+fn reopen(scene: &Scene, folder: &Path, progress: &Progress) -> io::Result<Vec<Recorder>> {
+    let mark = |number: usize| progress.tables.get(number).copied().unwrap_or_default();
+    let records = scene.records.iter().enumerate();
+    records.map(|(number, record)| Recorder::reopen(record, folder, mark(number))).collect()
 }
 
 /// Who watches a run. Told after every batch of steps; answers whether to go on.
@@ -64,36 +110,19 @@ const BATCH_UPDATES: u64 = 200_000;
 pub fn run(
     scene: &Scene,
     engine: &mut dyn Engine,
-    folder: &Path,
+    folder: &RunFolder,
     resumed: Option<&Progress>,
     watcher: &mut dyn Watcher,
 ) -> Result<End, RunError> {
     let mut run = Run::begin(scene, folder, resumed)?;
-    if resumed.is_none() {
-        run.observe(engine)?;
-    }
-    let mut saved = Saved { step: engine.steps(), at: Instant::now() };
-    let end = loop {
-        let now = engine.steps();
-        if run.quiet.as_ref().is_some_and(Quiet::is_met) {
-            break End::Steady;
-        }
-        if now >= scene.stop.steps {
-            break End::Limit;
-        }
-        let go_on = watcher.watch(now, run.quiet.as_ref().and_then(|quiet| quiet.change));
-        if !go_on || saved.is_due(scene.checkpoint, now) {
-            run.save(engine)?;
-            saved = Saved { step: now, at: Instant::now() };
-        }
-        if !go_on {
-            break End::Interrupted;
-        }
-        engine.step(run.next_event(now) - now)?;
-        run.observe(engine)?;
-        engine.still_works()?;
+    let end = match run.advance(engine, resumed.is_none(), watcher) {
+        Err(error) if error.misses_a_file() => return Err(run.rescue(engine)),
+        end => end?,
     };
     if end != End::Interrupted {
+        if !folder.is_there() {
+            return Err(run.rescue(engine));
+        }
         run.finish(engine)?;
         engine.still_works()?;
     }
@@ -118,39 +147,87 @@ impl Saved {
 /// What a run keeps besides the engine.
 struct Run<'a> {
     scene: &'a Scene,
-    folder: &'a Path,
+    folder: &'a RunFolder,
     recorders: Vec<Recorder>,
     quiet: Option<Quiet>,
 }
 
 impl<'a> Run<'a> {
-    fn begin(scene: &'a Scene, folder: &'a Path, resumed: Option<&Progress>) -> io::Result<Self> {
-        let recorder = |(number, record)| match resumed {
-            None => Recorder::create(record, folder),
+    fn begin(
+        scene: &'a Scene,
+        folder: &'a RunFolder,
+        resumed: Option<&Progress>,
+    ) -> Result<Self, RunError> {
+        folder.prepare(scene)?;
+        let path = folder.path();
+        let recorders = match resumed {
+            None => {
+                let records = scene.records.iter();
+                records.map(|record| Recorder::create(record, path)).collect::<io::Result<_>>()?
+            }
             Some(progress) => {
-                let length = progress.table_lengths.get(number).copied().unwrap_or(0);
-                Recorder::reopen(record, folder, length)
+                // All are looked at before one is changed.
+                let mut recorders = reopen(scene, path, progress).map_err(RunError::Table)?;
+                recorders.iter_mut().try_for_each(Recorder::go_on)?;
+                recorders
             }
         };
-        let recorders =
-            scene.records.iter().enumerate().map(recorder).collect::<io::Result<Vec<_>>>()?;
         let quiet = scene.stop.steady.clone().map(|steady| Quiet::begin(steady, resumed));
         Ok(Run { scene, folder, recorders, quiet })
     }
 
-    /// Takes the records that are due now. Errors if the state is broken: it is not written.
+    /// Makes steps until the run has come to an end.
+    fn advance(
+        &mut self,
+        engine: &mut dyn Engine,
+        from_the_start: bool,
+        watcher: &mut dyn Watcher,
+    ) -> Result<End, RunError> {
+        if from_the_start {
+            self.observe(engine)?;
+        }
+        let mut saved = Saved { step: engine.steps(), at: Instant::now() };
+        loop {
+            let now = engine.steps();
+            if self.quiet.as_ref().is_some_and(Quiet::is_met) {
+                return Ok(End::Steady);
+            }
+            if now >= self.scene.stop.steps {
+                return Ok(End::Limit);
+            }
+            let go_on = watcher.watch(now, self.quiet.as_ref().and_then(|quiet| quiet.change));
+            if !go_on || saved.is_due(self.scene.checkpoint, now) {
+                self.save(engine)?;
+                saved = Saved { step: now, at: Instant::now() };
+            }
+            if !go_on {
+                return Ok(End::Interrupted);
+            }
+            engine.step(self.next_event(now) - now)?;
+            self.observe(engine)?;
+            engine.still_works()?;
+        }
+    }
+
+    /// Takes the records that are due now. Errors if the state is broken: it is not written. If one of
+    /// them cannot be written the others are taken all the same, so that the state of this step can still
+    /// be saved elsewhere.
     fn observe(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
         let now = engine.steps();
+        let mut written = Ok(());
         if self.recorders.iter().any(|recorder| recorder.record.rhythm.is_due(now)) {
             engine.look()?;
+            if !self.folder.is_there() {
+                written = Err(io::Error::from(io::ErrorKind::NotFound));
+            }
         }
         for recorder in self.recorders.iter_mut().filter(|r| r.record.rhythm.is_due(now)) {
-            recorder.take(self.scene, engine)?;
+            written = written.and(recorder.take(self.scene, engine));
         }
         if let Some(quiet) = &mut self.quiet {
             quiet.look(self.scene, engine);
         }
-        Ok(())
+        Ok(written?)
     }
 
     /// The step at which something is due next, or the watcher should be told.
@@ -170,15 +247,50 @@ impl<'a> Run<'a> {
 
     /// Saves the state. Errors if it is broken: then the last one that was not is kept.
     fn save(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+        if !self.folder.is_there() {
+            return Err(io::Error::from(io::ErrorKind::NotFound).into());
+        }
+        let folder = self.folder;
+        self.save_into(folder, engine)
+    }
+
+    fn save_into(&mut self, folder: &RunFolder, engine: &mut dyn Engine) -> Result<(), RunError> {
         engine.look()?;
-        let lengths = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
+        let tables = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
         let progress = Progress {
-            table_lengths: lengths,
+            tables,
             quiet_rows: self.quiet.as_ref().map_or(0, |quiet| quiet.rows),
             last_value_bits: self.quiet.as_ref().and_then(|q| Some(q.last?.to_bits())),
         };
-        checkpoint::save(self.folder, self.scene, engine, progress)?;
+        checkpoint::save(folder, self.scene, engine, progress)?;
         Ok(())
+    }
+
+    /// Saves what can be saved of a run whose folder has gone: scene, lists, tables (they are still open)
+    /// and state, in a fresh folder beside it.
+    fn rescue(&mut self, engine: &mut dyn Engine) -> RunError {
+        let rescue = match self.save_elsewhere(engine) {
+            Ok(folder) => format!(
+                "its state and its tables are saved: psmrt resume {} (pictures and fields written before \
+                 are where the old folder is)",
+                folder.path().display()
+            ),
+            Err(error) => format!("its state cannot be saved elsewhere either ({error})"),
+        };
+        RunError::Gone { path: self.folder.path().display().to_string(), rescue }
+    }
+
+    fn save_elsewhere(
+        &mut self,
+        engine: &mut dyn Engine,
+    ) -> Result<RunFolder, Box<dyn std::error::Error>> {
+        let folder = RunFolder::rescue_of(self.folder)?;
+        folder.keep(self.scene)?;
+        folder.prepare(self.scene)?;
+        // Copies first: saving asks the open tables how long they are, copying ends them.
+        self.save_into(&folder, engine)?;
+        self.recorders.iter_mut().try_for_each(|recorder| recorder.copy_to(folder.path()))?;
+        Ok(folder)
     }
 
     /// Takes the records that are due at the end. Errors if the state is broken.

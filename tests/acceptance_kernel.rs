@@ -1,8 +1,9 @@
 //! The acceptance cases on the kernel: the same scenes and the same claims as on the oracle.
 
 mod common;
+mod trials;
 
-use common::{Budget, trials};
+use common::Budget;
 use psmrt::cases::{Bench, CASES, Golden, steadiness};
 use std::path::Path;
 use std::process::ExitCode;

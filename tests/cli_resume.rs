@@ -131,6 +131,10 @@ fn start(scene: &Path, out: &Path) -> Child {
         .unwrap()
 }
 
+fn list(run: &Path) -> Vec<PathBuf> {
+    psmrt::checkpoint::list(run).unwrap()
+}
+
 fn assert_same(a: &[(PathBuf, Vec<u8>)], b: &[(PathBuf, Vec<u8>)], what: &str) {
     assert_eq!(a.len(), b.len(), "{what}");
     for ((name, a), (other, b)) in a.iter().zip(b) {
@@ -203,7 +207,7 @@ fn killed_with_two_checkpoints(folder: &Folder) -> (PathBuf, Vec<PathBuf>) {
     let scene = folder.write("scene.toml", SCENE);
     let out = folder.path("run");
     let mut child = start(&scene, &out);
-    let list = || psmrt::checkpoint::list(&out);
+    let list = || list(&out);
     while list().len() < 2 && child.try_wait().unwrap().is_none() {
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -251,7 +255,7 @@ fn a_checkpoint_of_another_scene_is_refused() {
     fs::write(&scene, text).unwrap();
     let output = psmrt(&["resume", out.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(stderr(&output).contains("belongs to another scene"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("scene.toml has been changed"), "{}", stderr(&output));
 }
 
 #[test]
@@ -280,7 +284,7 @@ fn an_interruption_saves_the_state_and_says_how_to_go_on() {
     let scene = folder.write("scene.toml", SCENE);
     let out = folder.path("run");
     let child = start(&scene, &out);
-    while psmrt::checkpoint::list(&out).is_empty() {
+    while list(&out).is_empty() {
         std::thread::sleep(Duration::from_millis(2));
     }
     let id = child.id().to_string();
@@ -298,7 +302,7 @@ fn an_interruption_saves_the_state_and_says_how_to_go_on() {
 fn a_full_disk_loses_nothing_that_was_written_before() {
     let folder = Folder::new("full");
     let (out, _) = killed_with_two_checkpoints(&folder);
-    let before = psmrt::checkpoint::list(&out);
+    let before = list(&out);
     // A limit on the size of files stands for the full disk.
     let script = format!(
         "trap '' XFSZ; ulimit -f 16; exec {} resume {}",
@@ -308,7 +312,7 @@ fn a_full_disk_loses_nothing_that_was_written_before() {
     let output = Command::new("sh").args(["-c", &script]).output().unwrap();
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("cannot be written"), "{}", stderr(&output));
-    assert_eq!(psmrt::checkpoint::list(&out), before);
+    assert_eq!(list(&out), before);
     let output = psmrt(&["resume", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));
     let (whole, _) = uninterrupted(&folder, &folder.path("scene.toml"));

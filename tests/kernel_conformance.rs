@@ -3,10 +3,11 @@
 //! its own: not attempted.
 
 mod common;
+mod trials;
 
 use std::process::ExitCode;
 
-use common::{Budget, trials};
+use common::Budget;
 use psmrt::kernel::{Kernel, solid_fraction};
 use psmrt::oracle::folder::{read, write};
 use psmrt::oracle::judge::{Submission, judge_submission};

@@ -3,10 +3,11 @@
 mod cli;
 mod common;
 mod edges;
+mod trials;
 
 use std::process::ExitCode;
 
-use common::{Budget, trials};
+use common::Budget;
 use psmrt::cases::EngineName;
 use psmrt::stability::Lab;
 

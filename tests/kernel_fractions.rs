@@ -6,13 +6,13 @@
 //! through an area of at most about √2.
 
 mod common;
+mod trials;
 
 use std::process::ExitCode;
 
 use common::cuts::{cut, images};
 use common::random::Random;
 use common::sphere_quadrature::fraction_by_quadrature;
-use common::trials;
 use psmrt::kernel::solid_fractions_on_device;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;

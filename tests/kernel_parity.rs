@@ -7,12 +7,13 @@
 
 mod common;
 mod parity;
+mod trials;
 
 use std::process::ExitCode;
 
+use common::Budget;
 use common::collisions::dhumieres;
 use common::random::Random;
-use common::{Budget, trials};
 use parity::{
     CELLS, G, OPERATORS, WEIGHTINGS, collisions, error_of_one_step, given_fractions, mixed_faces,
     random_state,

@@ -1,13 +1,14 @@
 //! The kernel against exact solutions and published tables, without the oracle.
 
 mod common;
+mod trials;
 
 use std::f64::consts::PI;
 use std::process::ExitCode;
 
 use common::collisions::{dhumieres, srt};
 use common::random::Random;
-use common::{Budget, golden_rows, observed_order, trials};
+use common::{Budget, golden_rows, observed_order};
 use psmrt::kernel::Kernel;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::{C, Q, number_of};
@@ -94,7 +95,7 @@ fn shear_wave_decays_with_the_viscosity_of_tau() {
         let before = amplitude(&kernel);
         budget.advance(&mut kernel, 300);
         let nu = (before / amplitude(&kernel)).ln() / (300.0 * k * k);
-        // ν_eff = ν (1 + C k²): `tests/viscosity.rs` has C; with σ = 1/s - 1/2 along an axis
+        // ν_eff = ν (1 + C k²): `tests/oracle/viscosity.rs` has C; with σ = 1/s - 1/2 along an axis
         // C = 1/12 + σ²/3 - σ (σ_q + 3 σ_m)/6.
         let sigma = tau - 0.5;
         let [q, m] = match collision {
@@ -146,7 +147,7 @@ fn drag_of_a_sphere_array_converges_to_zick_and_homsy() {
         [8, 12, 16].map(|side| (1.0 / side as f64, sphere_array(&mut budget, side) / exact - 1.0));
     let order = observed_order(&errors);
     println!("errors of K: {errors:.5?}, order {order:.3}");
-    // What PS leaves is of second order: the leak `x = 2.25 ν K/a²` of tests/sphere_arrays.rs, 0.04 at 8
+    // What PS leaves is of second order: the leak `x = 2.25 ν K/a²` of tests/oracle/sphere_arrays.rs, 0.04 at 8
     // cells per diameter, and the place of the surface, about half as much there (0.061 in all by
     // golden/sphere_arrays/study.csv). The steadiness of 5e-5 is far below.
     assert!(errors[2].1.abs() < 0.07, "{errors:?}");

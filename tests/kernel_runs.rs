@@ -22,11 +22,12 @@
 
 mod common;
 mod parity;
+mod trials;
 
 use std::process::ExitCode;
 
+use common::Budget;
 use common::random::Random;
-use common::{Budget, trials};
 use parity::{Both, scenes, sphere, waves};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};

@@ -56,6 +56,29 @@ fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
 }
 
 #[test]
+fn proofs_of_the_oracle_alone_are_run_with_its_package() {
+    let all = text(&files("tests/oracle", &["all.rs"])[0]);
+    for path in files("tests/oracle", &[".rs"]).iter().filter(|path| !path.ends_with("all.rs")) {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let listed = all.lines().any(|line| line == format!("mod {name};"));
+        assert!(
+            listed,
+            "tests/oracle/{name}.rs is not among the modules of all.rs: nothing runs it"
+        );
+    }
+    for path in files("tests", &[".rs"]) {
+        let at_top = path.parent().is_some_and(|folder| folder.ends_with("tests"));
+        let words = ["psmrt::", "CARGO_BIN_EXE", "mod cli;", "mod parity;"];
+        let text = text(&path);
+        assert!(
+            !at_top || words.iter().any(|word| text.contains(word)),
+            "{}: nothing but the reference is tested here, so it belongs into tests/oracle",
+            path.display()
+        );
+    }
+}
+
+#[test]
 fn every_test_named_in_the_errata_exists() {
     let errata = text(&files("reference", &["ERRATA.md"])[0]);
     let mut named = 0;

@@ -2,7 +2,7 @@
 //!
 //! Prints `method,n,rms_error,max_error,ns_per_cell` for 2,000 random cells that the surface of a
 //! sphere of radius 8 cuts. The truth is the exact fraction, whose own error is proved to lie below
-//! 1e-12 at this radius by `tests/coverage.rs`; its row therefore has errors of 0 by definition.
+//! 1e-12 at this radius by `tests/oracle/coverage.rs`; its row therefore has errors of 0 by definition.
 //!
 //! ```text
 //! cargo run --release -p psmrt-reference --example coverage_cost

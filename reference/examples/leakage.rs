@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!(
         "# layer from the surface, over the shear force per layer; their mean over all is 1/2."
     );
-    println!("# Theory and proof: tests/leakage.rs.");
+    println!("# Theory and proof: tests/oracle/leakage.rs.");
     println!("tau,collision,operator,normal,permeability,along_1,along_2,along_4");
     for tau in [0.51, 0.55, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0] {
         for (name, collision) in collisions(tau)? {

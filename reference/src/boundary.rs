@@ -74,7 +74,7 @@ pub fn bounce_back(post: &Populations, a: usize, u_w: &Vec3) -> f64 {
 ///
 /// On diagonal links it also lets no shear stress through: the face is like the mouth of a jet. In a
 /// channel the streamlines spread there and each end counts a twentieth of the width less
-/// (`tests/boundaries.rs`).
+/// (`tests/oracle/boundaries.rs`).
 pub fn anti_bounce_back(post: &Populations, a: usize, rho_w: f64) -> f64 {
     let u = momentum(post) / density(post);
     let cu = c(a).dot(&u);

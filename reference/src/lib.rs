@@ -13,12 +13,14 @@
 //! | Eqs. 4, 6 | PS-SRT, PS-MRT: fluid and solid part of a cell | [`cell_collision`] |
 //! | Eq. 5, `B` | the solid's collision and its weight, force on the solid | [`partial_saturation`] |
 //! | `epsilon` | solid fraction of a sphere in a cell | [`coverage`] |
+//! | | how the fluid starts | [`start`] |
 //! | | order of operations in a step | [`solver`] |
 //! | section 4, contact | Voigt, Coulomb, motion, packing (DEM) | [`grains`] |
 //! | section 4, fluid on grains | free grains in the fluid | [`coupling`] |
 //!
 //! Symbols: `reference/NOTATION.md`. Departures from the printed equations, each with the test that
-//! shows why: `reference/ERRATA.md`. Everything is in lattice units: grid spacing, time step and the
+//! shows why: `reference/ERRATA.md`. Proofs: `tests/oracle/`, run by `cargo test -p psmrt-reference`.
+//! Everything is in lattice units: grid spacing, time step and the
 //! reference density are 1.
 
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
@@ -42,4 +44,5 @@ pub mod rates;
 pub mod setup;
 pub mod solids;
 pub mod solver;
+pub mod start;
 pub mod streaming;

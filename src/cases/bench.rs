@@ -13,7 +13,8 @@ use super::{Case, CaseError, Settled, Table};
 use crate::checkpoint;
 use crate::engine::{Engine, KernelEngine, ReferenceEngine};
 use crate::kernel::Gpu;
-use crate::run::{End, Watcher, forget_records, run};
+use crate::output::folder::RunFolder;
+use crate::run::{End, Watcher, run, set_aside};
 use crate::scene::Scene;
 
 /// Which engine a case runs on.
@@ -175,16 +176,17 @@ impl Bench {
             }
         };
         fs::create_dir_all(&folder)?;
-        let resumed = match checkpoint::list(&folder).last() {
-            Some(newest) => Some(checkpoint::load(newest, &scene, engine.as_mut())?),
+        let held = RunFolder::open(&folder)?;
+        let resumed = match checkpoint::list(&folder)?.last() {
+            Some(newest) => Some(checkpoint::load(newest, &held, &scene, engine.as_mut())?),
             None => {
-                forget_records(&scene, &folder)?;
+                set_aside(&scene, &held)?;
                 None
             }
         };
         let first = engine.steps();
         let mut watcher = (self.watcher)(&scene);
-        let end = run(&scene, engine.as_mut(), &folder, resumed.as_ref(), watcher.as_mut())?;
+        let end = run(&scene, engine.as_mut(), &held, resumed.as_ref(), watcher.as_mut())?;
         if end == End::Interrupted {
             return Err(CaseError::Interrupted);
         }

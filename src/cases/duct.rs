@@ -80,7 +80,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
                 what: format!("{engine}: order of the error of the mean velocity, {rates}"),
                 measured: -PowerLaw::fit(&sizes)?.order,
                 allowed: 1.8..=2.1,
-                why: "second order; at 8 cells the fourth-order term turns the slope by up to 0.15 (tests/duct.rs, whose \
+                why: "second order; at 8 cells the fourth-order term turns the slope by up to 0.15 (tests/oracle/duct.rs, whose \
                       finer grids come within 0.06)",
             });
             let [.., coarse, fine] = errors[..] else {

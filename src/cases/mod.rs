@@ -54,6 +54,7 @@ use thiserror::Error;
 use crate::checkpoint::CheckpointError;
 use crate::engine::{EngineStop, StartError};
 use crate::kernel::KernelError;
+use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::SceneError;
 
@@ -217,6 +218,9 @@ pub enum CaseError {
         "interrupted; at the full scale the state is saved, and the same command goes on from it"
     )]
     Interrupted,
+    /// The folder of a run cannot be used.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// A kept run cannot go on from its checkpoint.
     #[error("{0}; remove the run's folder to start it again")]
     Checkpoint(#[from] CheckpointError),

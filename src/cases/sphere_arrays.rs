@@ -136,7 +136,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
                 what: format!("{engine}: error of K, finest two grids extrapolated, {lattice}"),
                 measured: without_grid(&errors).unwrap_or(f64::NAN),
                 allowed: -0.015..=0.03,
-                why: "second-order extrapolation does not see that a wall lies 0.02 cells in the fluid (tests/ps_channel_wall.rs): \
+                why: "second-order extrapolation does not see that a wall lies 0.02 cells in the fluid (tests/oracle/ps_channel_wall.rs): \
                       0.3 to 0.4 % of these radii, and K grows as their 5th to 7th power, 2 %, of which 0.6 are left: 1.0 to \
                       1.3 % too much. Places of the sphere on the grid change the coarser error by a tenth, 0.5 to 1.1 % of \
                       K either way. For 1 % finer grids are needed: report --full",

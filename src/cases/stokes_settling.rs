@@ -15,7 +15,7 @@ pub const CASE: Case = Case {
          its drag is 1.82268 times Stokes' (method of fundamental solutions, six digits), which the closed \
          ends, four diameters away, change by less than 1e-3. Free motion, gravity by reduced pressure, and \
          the inertia of the fluid inside are part of what is tested. Six cells per diameter here; \
-         tests/stokes_settling.rs shows the second order from 4 to 8.",
+         tests/oracle/stokes_settling.rs shows the second order from 4 to 8.",
     ],
     scenes: &["scene.toml"],
     literature: &["literature.csv"],
@@ -84,7 +84,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             measured: own.last().copied().unwrap_or(f64::NAN),
             allowed: 1.0..=1.1,
             why: "the sphere leaks: at 6 cells per diameter and tau = 0.8 the drag is 7 to 9 % too small, \
-                  falling with the square of the cell size (tests/stokes_settling.rs); never too large",
+                  falling with the square of the cell size (tests/oracle/stokes_settling.rs); never too large",
         });
         claims.push(Claim {
             what: format!("{engine}: what the velocity still had to go at the end"),

@@ -125,7 +125,7 @@ fn largest_claims(
             what: format!("study: {case}: order in which the largest velocity converges, 8, 12 and 16 cells"),
             measured: order_and_limit(&errors).map_or(f64::NAN, |found| found.0),
             allowed: 1.7..=2.3,
-            why: "second order, as the drag of spheres (tests/sphere_arrays.rs, 0.3 either way as there); errors are kept to \
+            why: "second order, as the drag of spheres (tests/oracle/sphere_arrays.rs, 0.3 either way as there); errors are kept to \
                   1e-4, of 23e-4 or more between the finest grids: 0.1 of the order",
         });
     }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use super::execute::say;
+use super::say::say;
 use super::{CommandError, engine};
 use crate::estimate::{calibrate, models, numbers, warnings};
 use crate::scene::Scene;
@@ -52,7 +52,7 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     }
     match speed {
         Some(pace) => say(&format!(
-            "  {:<20}{:<18}engine {}, {:.2} million cell updates a second alone on this machine",
+            "  {:<20}{:<17} engine {}, {:.2} million cell updates a second alone on this machine",
             "time, at most",
             range(pace.seconds),
             engine.name(),

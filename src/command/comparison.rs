@@ -4,12 +4,14 @@ use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
+use super::execute::write_figure;
 use super::{CommandError, write};
 use crate::engine::Engine;
 use crate::exact::{Comparison, PlanePoiseuille};
-use crate::output::csv::{Column, Table, Value};
-use crate::output::plot;
+use crate::output::csv::{self, Column};
+use crate::output::names::COMPARISON;
 use crate::output::records::profile_rows;
+use crate::output::{atomic, plot};
 use crate::scene::Scene;
 
 const COLUMNS: [Column; 3] = [
@@ -30,16 +32,12 @@ pub(super) fn compare(
     let along: Vec<f64> = rows.iter().map(|row| row[2 + exact.along]).collect();
     let comparison = Comparison::new(exact, &along);
     // Both are made from the end of the run: a resumed run makes them again.
-    let table = folder.join("comparison.csv");
+    let [table, picture] = COMPARISON.map(|name| folder.join(name));
     write(&table, |path| {
-        let mut table = Table::replace(path, &COLUMNS)?;
-        for row in &comparison.si_rows {
-            table.add(&row.map(Value::Real))?;
-        }
-        table.sync().map(|_| ())
+        atomic::write(path, |out| csv::write(out, &COLUMNS, &comparison.si_rows))
     })?;
     let figure = plot::profile(&scene.title, exact, &comparison);
-    write(&folder.join("comparison.svg"), |path| psmrt_report::write_svg(&figure, path))?;
+    write(&picture, |path| write_figure(&figure, path))?;
     Ok(comparison)
 }
 

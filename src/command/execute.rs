@@ -6,17 +6,22 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use psmrt_report::{Figure, write_svg};
+use psmrt_report::{Figure, render_svg};
 use serde_json::{Value, json};
 
 use super::progress::Progress as ProgressBar;
+use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
 use crate::estimate::{Warning, warnings};
-use crate::output::{atomic, csv, grain_plots, plot};
+use crate::output::folder::RunFolder;
+use crate::output::{atomic, csv, grain_plots, names, plot};
 use crate::run::{End, run as run_scene};
 use crate::scene::{Scene, What};
+
+/// The states of runs that there is nothing to go on with.
+const FINISHED: [&str; 2] = ["steady", "limit"];
 
 /// Exit code after a second interruption, which does not wait for the state to be saved.
 const INTERRUPTED: i32 = 130;
@@ -25,7 +30,7 @@ const INTERRUPTED: i32 = 130;
 pub(super) fn execute(
     scene: &Scene,
     engine: &mut dyn Engine,
-    folder: &Path,
+    folder: &RunFolder,
     resumed: Option<&Progress>,
     json: bool,
 ) -> Result<(), CommandError> {
@@ -33,32 +38,39 @@ pub(super) fn execute(
     if !json {
         warn(scene);
     }
-    write_facts(scene, engine, folder, first_step, start, "running")?;
+    let facts = |engine: &dyn Engine, state: &str| {
+        write_facts(scene, engine, folder, first_step, start, state)
+    };
+    facts(engine, "running")?;
     let mut progress = ProgressBar::new(scene, json, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
     drop(progress);
-    let word = match &end {
-        Ok(End::Steady) => "steady",
-        Ok(End::Limit) => "limit",
-        Ok(End::Interrupted) => "interrupted",
-        Err(_) => "failed",
+    let end = match end {
+        Ok(End::Interrupted) => {
+            facts(engine, "interrupted")?;
+            let folder = folder.path().display().to_string();
+            return Err(CommandError::Interrupted { folder });
+        }
+        Ok(end) => end,
+        Err(error) => {
+            // A run that failed on a full disk should say that, not that its facts cannot be written.
+            let _ = facts(engine, "failed");
+            return Err(error.into());
+        }
     };
-    // A run that failed on a full disk should say that, not that its facts cannot be written.
-    let facts = write_facts(scene, engine, folder, first_step, start, word);
-    let (end, facts) = (end?, facts?);
-    if end == End::Interrupted {
-        return Err(CommandError::Interrupted { folder: folder.display().to_string() });
-    }
+    let path = folder.path();
     let found = match &scene.exact {
-        Some(exact) => Some(comparison::compare(scene, exact, engine, folder)?),
+        Some(exact) => Some(comparison::compare(scene, exact, engine, path)?),
         None => None,
     };
-    draw_records(scene, folder)?;
+    draw_records(scene, path)?;
+    // These come last: a run that says that it has finished has all its files.
+    let facts = facts(engine, if end == End::Steady { "steady" } else { "limit" })?;
     if json {
         let comparison = found.as_ref().map(comparison::to_json);
         let profile = engine.profile().map(|profile| profile::to_json(&profile));
         let all = json!({
-            "folder": folder, "run": facts, "comparison": comparison, "profile": profile,
+            "folder": path.display().to_string(), "run": facts, "comparison": comparison, "profile": profile,
         });
         say(&all.to_string());
         return Ok(());
@@ -79,22 +91,21 @@ pub(super) fn execute(
     if let (Some(found), Some(exact)) = (&found, &scene.exact) {
         say(&comparison::to_text(exact, found));
     }
-    say(&format!("results in {}", folder.display()));
+    say(&format!("results in {}", path.display()));
     Ok(())
 }
 
 /// Says beforehand what looks risky, a line each; `run.json` and `--json` have it too.
 fn warn(scene: &Scene) {
     for Warning { reason, remedy } in warnings(scene) {
-        // Whoever has closed this has decided not to be warned.
-        let _ = writeln!(std::io::stderr(), "warning: {reason} (help: {remedy})");
+        tell(&format!("warning: {reason} (help: {remedy})"));
     }
 }
 
 /// Draws the records that a curve can show.
 fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
     for record in &scene.records {
-        let table = folder.join(format!("{}.csv", record.name));
+        let table = folder.join(names::table(&record.name));
         let title = format!("{} ({})", scene.title, record.name);
         let rows = || csv::read(&table);
         let figure = || -> std::io::Result<Option<Figure>> {
@@ -106,18 +117,29 @@ fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
                 What::Fields { .. } | What::Slice { .. } | What::Grains => None,
             })
         };
-        write(&table.with_extension("svg"), |path| match figure() {
-            Ok(None) => Ok(()),
-            Ok(Some(figure)) => write_svg(&figure, path).map_err(|error| error.to_string()),
-            Err(error) => Err(error.to_string()),
+        write(&folder.join(names::picture(&record.name)), |path| match figure()? {
+            None => Ok(()),
+            Some(figure) => write_figure(&figure, path),
         })?;
     }
     Ok(())
 }
 
-/// Prints a line. A reader who has gone away is no reason to fail.
-pub(super) fn say(line: &str) {
-    let _ = writeln!(std::io::stdout(), "{line}");
+/// Draws a figure into a file that is whole or not there.
+pub(super) fn write_figure(figure: &Figure, path: &Path) -> std::io::Result<()> {
+    let svg = render_svg(figure).map_err(std::io::Error::other)?;
+    atomic::write(path, |out| out.write_all(svg.as_bytes()))
+}
+
+/// Says where nothing keeps a second process out of the folder of a run.
+pub(super) fn held(folder: RunFolder) -> RunFolder {
+    if !folder.is_locked() {
+        tell(&format!(
+            "warning: the file system of {} has no locks: do not start a second run or resume there",
+            folder.path().display()
+        ));
+    }
+    folder
 }
 
 /// Becomes true at Ctrl-C (or SIGTERM); the second one ends the process at once.
@@ -130,7 +152,7 @@ pub(super) fn interruption() -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = set {
-        eprintln!("warning: Ctrl-C will not save the state: {error}");
+        tell(&format!("warning: Ctrl-C will not save the state: {error}"));
     }
     interrupted
 }
@@ -139,7 +161,7 @@ pub(super) fn interruption() -> Arc<AtomicBool> {
 fn write_facts(
     scene: &Scene,
     engine: &dyn Engine,
-    folder: &Path,
+    folder: &RunFolder,
     first_step: u64,
     start: Instant,
     state: &str,
@@ -148,6 +170,8 @@ fn write_facts(
         SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |duration| duration.as_secs());
     let facts = json!({
         "state": state,
+        "finished": FINISHED.contains(&state),
+        "id": folder.id(),
         "title": scene.title,
         "engine": engine.name(),
         "adapter": engine.adapter(),
@@ -163,7 +187,7 @@ fn write_facts(
         "machine": info::machine(),
     });
     let text = format!("{facts:#}\n");
-    write(&folder.join("run.json"), |path| {
+    write(&folder.path().join(names::FACTS), |path| {
         atomic::write(path, |out| out.write_all(text.as_bytes()))
     })?;
     Ok(facts)

@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use clap::Subcommand;
 
-use super::execute::{interruption, say};
+use super::execute::interruption;
 use super::progress::Progress;
+use super::say::{say, tell};
 use super::{CommandError, write};
 use crate::cases::{Bench, CASES, Case, DRIFT_WORDS, Drift, Golden, drifts};
 use crate::output::atomic;
@@ -54,9 +55,10 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
         let golden = Golden::of(case, &request.golden);
         let path = golden.path(case.rows);
         let interrupted = Arc::clone(&interrupted);
-        let mut bench = Bench::new(&request.golden, None, |what| eprintln!("  {what}")).watched(
-            Box::new(move |scene| Box::new(Progress::new(scene, false, Arc::clone(&interrupted)))),
-        );
+        let mut bench = Bench::new(&request.golden, None, |what| tell(&format!("  {what}")))
+            .watched(Box::new(move |scene| {
+                Box::new(Progress::new(scene, false, Arc::clone(&interrupted)))
+            }));
         let new = bench.measure(case)?;
         let old = if path.exists() { Some(golden.table(case.rows)?) } else { None };
         match &old {

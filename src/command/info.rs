@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::execute::say;
+use super::say::say;
 use crate::kernel::{AdapterFacts, adapters};
 use crate::{machine, provenance};
 

@@ -16,6 +16,7 @@ pub mod report;
 mod report_files;
 pub mod resume;
 pub mod run;
+pub mod say;
 pub mod stability;
 pub mod tradeoff;
 
@@ -32,6 +33,7 @@ use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
 use crate::stability::LabError;
+use say::tell;
 
 /// A command that failed.
 #[derive(Debug, Error)]
@@ -96,6 +98,14 @@ pub enum CommandError {
     /// A candidate with wrong answers; the verdict has said which.
     #[error("the candidate failed")]
     CandidateFailed,
+    /// A table of a run is not the one that its checkpoint knows, and perhaps an older checkpoint fits.
+    #[error("{error}{older}")]
+    Table {
+        /// What is wrong with it.
+        error: RunError,
+        /// The offer of the older one; empty if there is none.
+        older: String,
+    },
     /// The user has interrupted the run; its state is saved.
     #[error("interrupted; the state is saved: psmrt resume {folder}")]
     Interrupted {
@@ -124,6 +134,7 @@ impl CommandError {
             | CommandError::Usage(_)
             | CommandError::Oracle(_)
             | CommandError::NoAnswers { .. }
+            | CommandError::Table { .. }
             | CommandError::Checkpoint { .. } => 2,
             CommandError::Run(_)
             | CommandError::Write { .. }
@@ -145,10 +156,10 @@ fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>,
     };
     if !wants_kernel(scene) {
         if let (EngineKind::Reference, Some(name)) = (scene.engine, &scene.adapter) {
-            eprintln!(
+            tell(&format!(
                 "engine.adapter = \"{name}\" of the scene is not used: engine reference computes on the \
                  processor"
-            );
+            ));
         }
         let engine = ReferenceEngine::new(scene).map_err(|error| refused(error.to_string()))?;
         return Ok(Box::new(engine));
@@ -158,6 +169,14 @@ fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>,
         Ok(engine) => Ok(Box::new(engine)),
         Err(StartError::Device(error)) => Err(error.into()),
         Err(error) => Err(refused(error.to_string())),
+    }
+}
+
+/// The engine as scenes name it.
+fn kind_of(engine: &dyn Engine) -> EngineKind {
+    match engine.name() {
+        "wgpu" => EngineKind::Wgpu,
+        _ => EngineKind::Reference,
     }
 }
 
@@ -172,7 +191,7 @@ fn wants_kernel(scene: &Scene) -> bool {
             let is_there = scene.adapter.is_some() || found.iter().any(|a| !a.is_software());
             if !is_there {
                 let why = if found.is_empty() { "no adapter" } else { "only a software adapter" };
-                eprintln!("engine auto: {why}, so the oracle (reference) computes");
+                tell(&format!("engine auto: {why}, so the oracle (reference) computes"));
             }
             is_there && !found.is_empty()
         }
@@ -199,10 +218,10 @@ pub fn engine_changes(
 }
 
 /// Does the writing of one file and says which file it was when that fails.
-fn write<E: std::fmt::Display>(
+fn write<T, E: std::fmt::Display>(
     path: &Path,
-    writing: impl FnOnce(&Path) -> Result<(), E>,
-) -> Result<(), CommandError> {
+    writing: impl FnOnce(&Path) -> Result<T, E>,
+) -> Result<T, CommandError> {
     writing(path).map_err(|error| CommandError::Write {
         path: path.display().to_string(),
         error: error.to_string(),

@@ -6,7 +6,7 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::CommandError;
-use super::execute::say;
+use super::say::say;
 use crate::oracle::files::{compare_folders, export, verify};
 use crate::oracle::folder;
 use crate::oracle::judge::judge_submission;
@@ -61,7 +61,10 @@ pub fn oracle(command: &OracleCommand, json: bool) -> Result<(), CommandError> {
         OracleCommand::Export { out } => {
             let (files, bytes) = export(out)?;
             if json {
-                say(&json!({ "folder": out, "files": files, "bytes": bytes }).to_string());
+                say(
+                    &json!({ "folder": out.display().to_string(), "files": files, "bytes": bytes })
+                        .to_string(),
+                );
             } else {
                 let folder = out.display();
                 say(&format!("{files} files, {:.1} MB, in {folder}", bytes as f64 / 1e6));

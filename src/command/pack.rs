@@ -11,7 +11,7 @@ use psmrt_reference::grains::packing::periodic::PeriodicPacking;
 use psmrt_reference::grains::packing::{Packing, PackingError, PackingReport, radius_for};
 use serde_json::json;
 
-use super::execute::say;
+use super::say::say;
 use super::{CommandError, write};
 use crate::output::{atomic, grain_list};
 use crate::packing::{Amount, Sizes};
@@ -95,7 +95,7 @@ pub fn pack(request: &PackRequest, json: bool) -> Result<(), CommandError> {
     let top = top.fold(0.0, f64::max);
     if json {
         let found = json!({
-            "file": request.out, "grains": packing.grains.len(), "porosity": porosity,
+            "file": request.out.display().to_string(), "grains": packing.grains.len(), "porosity": porosity,
             "coordination": coordination, "largest_overlap": largest_overlap,
             "height_m": top, "seconds": seconds,
         });

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use super::execute::say;
 use super::plan_text::{print, to_json, words};
+use super::say::say;
 use super::{CommandError, engine, engine_changes};
 use crate::cases::CaseError;
 use crate::engine::Engine;
@@ -18,6 +18,7 @@ use crate::plan::facts::{Facts, Limit};
 use crate::plan::options::{Speed, Way, as_it_is, cheapest, most_accurate, ways, why_none};
 use crate::plan::predict::{Outside, percent};
 use crate::plan::write::text;
+use crate::quote;
 use crate::scene::{EngineKind, Scene};
 use crate::tradeoff::cost::mrt_over_srt;
 use crate::tradeoff::knobs::CollisionKnob;
@@ -51,16 +52,23 @@ impl std::str::FromStr for Wanted {
             Some(number) => (number.trim_end(), true),
             None => (text.trim(), false),
         };
-        let value: f64 =
-            number.parse().map_err(|_| format!("{text:?} is no number: write it as 5% or 0.05"))?;
+        let value: f64 = number
+            .parse()
+            .map_err(|_| format!("{} is no number: write it as 5% or 0.05", quote::quoted(text)))?;
         let value = if percent { value / 100.0 } else { value };
         match value {
             value if value > 0.0 && value < 1.0 => Ok(Wanted(value)),
-            value if value >= 1.0 && !percent => Err(format!(
-                "{text} would be {} %: write {text}% or a fraction like 0.05",
-                100.0 * value
+            value if (1.0..100.0).contains(&value) && !percent => {
+                let text = quote::shown(text.trim());
+                Err(format!(
+                    "{text} would be {} %: if you mean {text} %, write {text}%",
+                    100.0 * value
+                ))
+            }
+            _ => Err(format!(
+                "{}: it must lie between 0 and 100 % (exclusive): write 5% or 0.05",
+                quote::shown(text)
             )),
-            _ => Err(format!("{text}: it must lie between 0 and 100 % (exclusive)")),
         }
     }
 }

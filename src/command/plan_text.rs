@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::check::duration;
-use super::execute::say;
+use super::say::say;
 use crate::plan::facts::{Facts, Limit};
 use crate::plan::options::Way;
 use crate::plan::predict::{Outside, percent};

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::say::tell;
 use crate::run::Watcher;
 use crate::scene::Scene;
 
@@ -73,10 +74,10 @@ impl Watcher for Progress {
         } else if !self.quiet && self.last_line.elapsed() > LINE_EVERY {
             self.last_line = Instant::now();
             let left = ((self.limit - steps) * self.cells) as f64 / rate;
-            eprintln!(
+            tell(&format!(
                 "step {steps} of at most {}: {message}, at most {left:.0} s left",
                 self.limit
-            );
+            ));
         }
         !self.interrupted.load(Ordering::Relaxed)
     }

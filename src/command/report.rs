@@ -14,9 +14,10 @@ use psmrt_report::{Appendix, DataTable, Figure, Page, Section, Verdict, render_p
 use serde_json::json;
 
 use super::environment::environment;
-use super::execute::{interruption, say};
+use super::execute::interruption;
 use super::progress::Progress;
 use super::report_files::{self, command, copies, measured};
+use super::say::{say, tell};
 use super::{CommandError, write};
 use crate::cases::{
     Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Settled, Table, steadiness,
@@ -62,7 +63,7 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
     fs::create_dir_all(&request.out).map_err(CaseError::from)?;
     let (mut sections, mut timings) = (Vec::new(), Vec::new());
     for (number, case) in cases.iter().enumerate() {
-        eprintln!("{} of {}: {}", number + 1, cases.len(), case.title);
+        tell(&format!("{} of {}: {}", number + 1, cases.len(), case.title));
         let mut section = empty(case, request)?;
         match fill(&mut section, case, &mut benches, &mut timings, request) {
             Err(CommandError::Case(error)) if !matches!(error, CaseError::Interrupted) => {
@@ -134,9 +135,9 @@ fn bench(
     interrupted: &Arc<AtomicBool>,
 ) -> Bench {
     let interrupted = Arc::clone(interrupted);
-    let bench = Bench::new(&request.golden, gpu, |what| eprintln!("  {what}")).watched(Box::new(
-        move |scene| Box::new(Progress::new(scene, json, Arc::clone(&interrupted))),
-    ));
+    let bench = Bench::new(&request.golden, gpu, |what| tell(&format!("  {what}"))).watched(
+        Box::new(move |scene| Box::new(Progress::new(scene, json, Arc::clone(&interrupted)))),
+    );
     if request.full { bench.at_full_scale(&request.out.join("runs")) } else { bench }
 }
 
@@ -295,7 +296,8 @@ fn print(page: &Page, index: &Path, json: bool) {
                         "allowed": v.allowed, "holds": v.holds })
             })
             .collect();
-        say(&json!({ "page": index, "holds": page.holds(), "claims": all }).to_string());
+        say(&json!({ "page": index.display().to_string(), "holds": page.holds(), "claims": all })
+            .to_string());
         return;
     }
     for (case, v) in verdicts() {
@@ -315,7 +317,7 @@ fn open(index: &Path) {
         "xdg-open"
     };
     if let Err(error) = std::process::Command::new(program).arg(index).spawn() {
-        eprintln!("the page cannot be opened with {program}: {error}");
+        tell(&format!("the page cannot be opened with {program}: {error}"));
     }
 }
 

@@ -2,11 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::execute::execute;
+use serde_json::{Value, json};
+
+use super::execute::{execute, held};
+use super::say::{say, tell};
 use super::{CommandError, engine, write};
-use crate::checkpoint::{self, Progress};
+use crate::checkpoint::{self, CheckpointError, Header, Progress};
 use crate::engine::Engine;
-use crate::run::forget_records;
+use crate::output::folder::{RunFolder, SCENE};
+use crate::output::names::FACTS;
+use crate::run::{check_tables, set_aside};
 use crate::scene::Scene;
 
 /// What `psmrt resume` is asked for.
@@ -20,47 +25,116 @@ pub struct ResumeRequest {
     pub json: bool,
 }
 
-/// Resumes a run.
+/// Resumes a run. One that has finished is left as it is.
 pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
-    let folder = &request.folder;
-    let file = folder.join("scene.toml");
+    let path = &request.folder;
+    let file = path.join(SCENE);
     if !file.is_file() {
         let problem = format!(
             "{} is no folder of a run: it has no scene.toml (a run that was killed before it had written \
              its scene has computed nothing: remove the folder and use `psmrt run` again)",
-            folder.display()
+            path.display()
         );
         return Err(CommandError::Resume(problem));
     }
+    if let Some(facts) = finished(path)? {
+        say_finished(path, &facts, request.json);
+        return Ok(());
+    }
+    let folder = held(RunFolder::open(path)?);
+    // Its process may have ended it while this one waited for nothing.
+    if let Some(facts) = finished(path)? {
+        say_finished(path, &facts, request.json);
+        return Ok(());
+    }
     let scene = Scene::load(&file, &[])?;
     let mut engine = engine(&scene, &file, false)?;
-    let progress = go_back(request, &scene, engine.as_mut())?;
+    let progress = go_back(request, &folder, &scene, engine.as_mut())?;
     if progress.is_none() {
-        eprintln!("there is no checkpoint yet: the run starts again from its beginning");
-        write(folder, |folder| forget_records(&scene, folder))?;
+        tell("there is no checkpoint yet: the run starts again from its beginning");
+        for moved in write(path, |_| set_aside(&scene, &folder))? {
+            tell(&format!("what it had written is set aside as {}", moved.display()));
+        }
     }
-    execute(&scene, engine.as_mut(), folder, progress.as_ref(), request.json)
+    execute(&scene, engine.as_mut(), &folder, progress.as_ref(), request.json)
+}
+
+/// What a run says about itself, if it has come to its end.
+fn finished(folder: &Path) -> Result<Option<Value>, CommandError> {
+    let file = folder.join(FACTS);
+    let unusable = |error: String| {
+        CommandError::Resume(format!(
+            "{} cannot be read ({error}), so that it is not known whether the run has finished: make it \
+             readable, or remove it if it has not",
+            file.display()
+        ))
+    };
+    let text = match std::fs::read_to_string(&file) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+        text => text.map_err(|error| unusable(error.to_string()))?,
+    };
+    let facts: Value = serde_json::from_str(&text).map_err(|error| unusable(error.to_string()))?;
+    Ok((facts["finished"] == true).then_some(facts))
+}
+
+fn say_finished(folder: &Path, facts: &Value, json: bool) {
+    let folder = folder.display().to_string();
+    if json {
+        say(&json!({ "folder": folder, "run": facts, "resumed": false }).to_string());
+        return;
+    }
+    say(&format!(
+        "this run has finished ({}) after {} steps: there is nothing to go on with\nresults in {folder}",
+        facts["state"].as_str().unwrap_or("at its end"),
+        facts["steps"]
+    ));
 }
 
 /// Puts the engine into the state of the checkpoint; `None` if there is none.
 fn go_back(
     request: &ResumeRequest,
+    folder: &RunFolder,
     scene: &Scene,
     engine: &mut dyn Engine,
 ) -> Result<Option<Progress>, CommandError> {
-    let known = checkpoint::list(&request.folder);
+    let known = checkpoint::list(folder.path()).map_err(unusable)?;
     let Some(path) = request.checkpoint.as_ref().or(known.last()) else { return Ok(None) };
-    match checkpoint::load(path, scene, engine) {
+    let loaded = usable(path, folder, scene, engine)
+        .and_then(|_| checkpoint::load(path, folder, scene, engine).map_err(unusable));
+    match loaded {
         Ok(progress) => {
-            eprintln!("going on from step {} ({})", engine.steps(), path.display());
+            tell(&format!("going on from step {} ({})", engine.steps(), path.display()));
             Ok(Some(progress))
         }
         Err(error) => {
-            let older = known.iter().rev().find(|other| *other < path);
-            let older = older.map_or_else(String::new, |older| offer(&request.folder, older));
-            Err(CommandError::Checkpoint { error, older })
+            let fits =
+                |other: &&PathBuf| *other < path && usable(other, folder, scene, engine).is_ok();
+            let older = known.iter().rev().find(fits);
+            let older = older.map_or_else(String::new, |older| offer(folder.path(), older));
+            Err(match error {
+                CommandError::Checkpoint { error, .. } => CommandError::Checkpoint { error, older },
+                CommandError::Table { error, .. } => CommandError::Table { error, older },
+                other => other,
+            })
         }
     }
+}
+
+/// Errors unless a run can go on from a checkpoint: it is whole, it is this run's, and so are the tables.
+fn usable(
+    path: &Path,
+    folder: &RunFolder,
+    scene: &Scene,
+    engine: &dyn Engine,
+) -> Result<Header, CommandError> {
+    let header = checkpoint::check(path, folder, scene, engine).map_err(unusable)?;
+    check_tables(scene, folder.path(), &header.progress)
+        .map_err(|error| CommandError::Table { error, older: String::new() })?;
+    Ok(header)
+}
+
+fn unusable(error: CheckpointError) -> CommandError {
+    CommandError::Checkpoint { error, older: String::new() }
 }
 
 fn offer(folder: &Path, older: &Path) -> String {

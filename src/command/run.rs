@@ -1,11 +1,11 @@
 //! `psmrt run`: a scene from its file to results in a folder.
 
-use std::io::Write;
 use std::path::PathBuf;
 
-use super::execute::execute;
-use super::{CommandError, engine, write};
-use crate::output::{atomic, folder};
+use super::execute::{execute, held};
+use super::say::tell;
+use super::{CommandError, engine, kind_of, write};
+use crate::output::folder::{RunFolder, scene_name};
 use crate::scene::Scene;
 
 /// What `psmrt run` is asked for.
@@ -28,18 +28,10 @@ pub fn run(request: &RunRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
     let mut engine = engine(&scene, &request.scene, request.profile)?;
     if request.profile && engine.profile().is_none() {
-        eprintln!("--profile: the engine {} does not keep its times", engine.name());
+        tell(&format!("--profile: the engine {} does not keep its times", engine.name()));
     }
-    let folder = folder::make(request.out.as_deref(), &folder::scene_name(&request.scene))?;
-    // The copies of the files that the scene names come first: a folder with a scene in it is whole.
-    for attachment in &scene.attachments {
-        write(&folder.join(attachment.file_name()), |path| {
-            atomic::write(path, |out| out.write_all(&attachment.bytes))
-        })?;
-    }
-    let scene = scene.with_copied_attachments()?;
-    write(&folder.join("scene.toml"), |path| {
-        atomic::write(path, |out| out.write_all(scene.text.as_bytes()))
-    })?;
+    let scene = scene.as_run(kind_of(engine.as_ref()))?;
+    let folder = held(RunFolder::make(request.out.as_deref(), &scene_name(&request.scene))?);
+    write(folder.path(), |_| folder.keep(&scene))?;
     execute(&scene, engine.as_mut(), &folder, None, request.json)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::CommandError;
-use super::execute::say;
+use super::say::say;
 use crate::cases::EngineName;
 use crate::kernel::Gpu;
 use crate::stability::record::Record;

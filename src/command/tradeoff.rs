@@ -8,7 +8,7 @@ use clap::Args;
 use psmrt_report::write_svg;
 use serde_json::json;
 
-use super::execute::say;
+use super::say::{say, tell};
 use super::{CommandError, write};
 use crate::cases::{CaseError, Table};
 use crate::kernel::Gpu;
@@ -64,7 +64,7 @@ pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), CommandErro
     let todo: Vec<_> = wanted.into_iter().filter(|knobs| !record.holds(knobs)).collect();
     let (can, cannot): (Vec<_>, Vec<_>) = todo.into_iter().partition(|knobs| runner.can(knobs));
     if !cannot.is_empty() {
-        eprintln!("{} runs need an adapter and are left out", cannot.len());
+        tell(&format!("{} runs need an adapter and are left out", cannot.len()));
     }
     let all = can.len();
     for (number, knobs) in can.into_iter().enumerate() {
@@ -79,7 +79,7 @@ pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), CommandErro
     }
     let (folder, rows) = (request.out.display(), record.rows.len());
     say(&if json {
-        json!({ "folder": request.out, "runs": all, "rows": rows, "left_out": cannot.len() })
+        json!({ "folder": request.out.display().to_string(), "runs": all, "rows": rows, "left_out": cannot.len() })
             .to_string()
     } else {
         format!("{rows} rows, {all} of them new, and what is made of them in {folder}")
@@ -101,7 +101,7 @@ fn summarise(
     let costs = if file("cost.csv").exists() {
         Table::read(&file("cost.csv"))?
     } else {
-        eprintln!("measuring what a cell update costs");
+        tell("measuring what a cell update costs");
         let costs = cost::measure(&request.golden, gpu)?;
         save("cost.csv", "Cost of a cell update, the best of 80 rounds of 15 ms", &costs)?;
         costs

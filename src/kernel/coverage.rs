@@ -10,7 +10,7 @@ use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
 use super::numbers::{count, single};
-use super::sphere::{sampled_fraction, solid_fractions};
+use super::sphere::{cells_about, sampled_fraction, solid_fractions};
 
 /// One cell that a solid touches.
 #[derive(Clone, Copy, Debug)]
@@ -125,6 +125,27 @@ impl Coverage {
         }
     }
 
+    /// The covered cells with the sum of their solid fractions and `Σ ε_s u_s`, the velocity of each solid
+    /// there taken as often as it fills the cell.
+    pub(super) fn motions(&self, phase: &SolidPhase) -> Vec<(u32, f64, Vec3)> {
+        let mut parts = Vec::new();
+        for (cover, solid) in self.covers.iter().zip(&phase.solids) {
+            for Touch { cell, epsilon, arm } in &cover.touches {
+                // u_s = U + ω × r
+                let velocity = solid.velocity + solid.spin.cross(arm);
+                parts.push((*cell, *epsilon, *epsilon * velocity));
+            }
+        }
+        parts.sort_by_key(|&(cell, ..)| cell);
+        let whole = |parts: &[(u32, f64, Vec3)]| {
+            let sums = parts.iter().fold((0.0, Vec3::zeros()), |(epsilon, motion), part| {
+                (epsilon + part.1, motion + part.2)
+            });
+            (parts[0].0, sums.0, sums.1)
+        };
+        parts.chunk_by(|a, b| a.0 == b.0).map(whole).collect()
+    }
+
     /// The cells that solids cover.
     pub(super) fn cells(&self) -> &[u32] {
         &self.cells
@@ -216,13 +237,15 @@ fn list_sphere(
             touches.push(Touch { cell: count(domain.index(inside)), epsilon, arm });
         }
     };
+    let [x_range, y_range, z_range] = cells_about((*centre).into(), radius);
+    let cells = [domain.within(0, x_range), domain.within(1, y_range), domain.within(2, z_range)];
     let CoverageRule::Sampled { n } = rule else {
-        return solid_fractions((*centre).into(), radius, add);
+        return solid_fractions((*centre).into(), radius, cells, add);
     };
-    let range = |axis: usize| floor(centre[axis] - radius)..=floor(centre[axis] + radius);
-    for z in range(2) {
-        for y in range(1) {
-            for x in range(0) {
+    let [x_range, y_range, z_range] = cells;
+    for z in z_range {
+        for y in y_range.clone() {
+            for x in x_range.clone() {
                 let middle = Vec3::new(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5);
                 let epsilon = sampled_fraction((centre - middle).into(), radius, n);
                 if epsilon > 0.0 {
@@ -231,10 +254,4 @@ fn list_sphere(
             }
         }
     }
-}
-
-/// The cell of a coordinate.
-#[expect(clippy::cast_possible_truncation, reason = "coordinates of solids are far below 2^63")]
-fn floor(coordinate: f64) -> i64 {
-    coordinate.floor() as i64
 }

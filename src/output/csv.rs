@@ -1,8 +1,13 @@
 //! Tables as CSV: the first line names each column with its unit, `time (s)`.
 
+use std::fmt;
 use std::fs::{File, OpenOptions};
-use std::io::{self, Seek, SeekFrom};
+use std::io::{self, Read, Seek, Write};
 use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::hashed::Hashed;
 
 /// A column of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,50 +42,81 @@ pub enum Value {
     Real(f64),
 }
 
+impl fmt::Display for Value {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Whole(value) => write!(out, "{value}"),
+            Value::Real(value) => write!(out, "{value:?}"),
+        }
+    }
+}
+
+/// What a table held at some moment: enough to know the same bytes again.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub struct Mark {
+    /// Length in bytes.
+    pub length: u64,
+    /// XXH3 of the bytes.
+    pub hash: u64,
+}
+
 /// A CSV file that is being written.
-#[derive(Debug)]
 pub struct Table {
-    writer: ::csv::Writer<File>,
+    writer: ::csv::Writer<Hashed<File>>,
+}
+
+impl fmt::Debug for Table {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.debug_struct("Table").field("file", &self.writer.get_ref().inner).finish()
+    }
 }
 
 impl Table {
     /// Makes the file and writes its first line. Errors if it exists.
     pub fn create(path: &Path, columns: &[Column]) -> io::Result<Self> {
-        Self::begin(File::create_new(path)?, columns)
-    }
-
-    /// The same, but a file that exists is replaced.
-    pub fn replace(path: &Path, columns: &[Column]) -> io::Result<Self> {
-        Self::begin(File::create(path)?, columns)
-    }
-
-    fn begin(file: File, columns: &[Column]) -> io::Result<Self> {
-        let mut writer = ::csv::Writer::from_writer(file);
+        let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
+        let mut writer = ::csv::Writer::from_writer(Hashed::new(file));
         writer.write_record(columns.iter().map(Column::title))?;
         writer.flush()?;
         Ok(Table { writer })
     }
 
-    /// Goes on with a file at `length` bytes; what came after is dropped. Errors if it is shorter.
-    pub fn reopen(path: &Path, length: u64) -> io::Result<Self> {
-        let mut file = OpenOptions::new().write(true).open(path)?;
-        let found = file.metadata()?.len();
-        if found < length {
-            let problem =
-                format!("{} has {found} bytes; the checkpoint knows {length}", path.display());
-            return Err(io::Error::other(problem));
+    /// Opens a file that begins with the bytes of `mark`, to go on after them. Errors if it begins with
+    /// others. Nothing is changed yet: [`Table::cut`] drops what came after.
+    pub fn reopen(path: &Path, mark: Mark) -> io::Result<Self> {
+        let mut out = Hashed::new(OpenOptions::new().read(true).write(true).open(path)?);
+        let mut left = mark.length;
+        let mut buffer = vec![0; 1 << 16];
+        while left > 0 {
+            let wanted = usize::try_from(left).unwrap_or(usize::MAX).min(buffer.len());
+            let read = out.inner.read(&mut buffer[..wanted])?;
+            if read == 0 {
+                return Err(io::Error::other(format!(
+                    "it is shorter than the {} bytes that it had when the checkpoint was written",
+                    mark.length
+                )));
+            }
+            out.count(&buffer[..read]);
+            left -= read as u64;
         }
-        file.set_len(length)?;
-        file.seek(SeekFrom::End(0))?;
-        Ok(Table { writer: ::csv::Writer::from_writer(file) })
+        if out.digest() != mark.hash {
+            return Err(io::Error::other(format!(
+                "its first {} bytes have been changed since the checkpoint was written",
+                mark.length
+            )));
+        }
+        Ok(Table { writer: ::csv::Writer::from_writer(out) })
+    }
+
+    /// Drops what comes after the bytes that [`Table::reopen`] has found.
+    pub fn cut(&mut self) -> io::Result<()> {
+        let out = self.writer.get_ref();
+        out.inner.set_len(out.length())
     }
 
     /// Adds a row.
     pub fn add(&mut self, row: &[Value]) -> io::Result<()> {
-        self.writer.write_record(row.iter().map(|value| match value {
-            Value::Whole(value) => value.to_string(),
-            Value::Real(value) => format!("{value:?}"),
-        }))?;
+        self.writer.write_record(row.iter().map(Value::to_string))?;
         Ok(())
     }
 
@@ -89,13 +125,37 @@ impl Table {
         self.writer.flush()
     }
 
-    /// Waits until all rows are on the disk; returns the length of the file in bytes.
-    pub fn sync(&mut self) -> io::Result<u64> {
+    /// Waits until all rows are on the disk; returns what the file holds.
+    pub fn sync(&mut self) -> io::Result<Mark> {
         self.writer.flush()?;
-        let file = self.writer.get_ref();
-        file.sync_data()?;
-        Ok(file.metadata()?.len())
+        let out = self.writer.get_ref();
+        out.inner.sync_data()?;
+        Ok(Mark { length: out.length(), hash: out.digest() })
     }
+
+    /// Copies all rows into a new file, also after this one has lost its name. No row may follow.
+    pub fn copy_to(&mut self, path: &Path) -> io::Result<()> {
+        self.writer.flush()?;
+        let mut own = &self.writer.get_ref().inner;
+        own.rewind()?;
+        let mut copy = File::create_new(path)?;
+        io::copy(&mut own, &mut copy)?;
+        copy.sync_all()
+    }
+}
+
+/// Writes a whole table of numbers.
+pub fn write<const N: usize>(
+    out: &mut impl Write,
+    columns: &[Column; N],
+    rows: &[[f64; N]],
+) -> io::Result<()> {
+    let mut writer = ::csv::Writer::from_writer(out);
+    writer.write_record(columns.iter().map(Column::title))?;
+    for row in rows {
+        writer.write_record(row.iter().map(|&value| Value::Real(value).to_string()))?;
+    }
+    writer.flush()
 }
 
 /// The rows of a table of numbers.

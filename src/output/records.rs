@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Shape;
 
-use super::csv::{Column, Table, Value};
-use super::{grain_means, snapshots};
+use super::csv::{Column, Mark, Table, Value};
+use super::{grain_means, names, snapshots};
 use crate::engine::{CellState, Engine};
 use crate::scene::{Record, Scene, What};
 
@@ -77,25 +77,51 @@ pub struct Recorder {
 impl Recorder {
     /// Begins a record in `folder`.
     pub fn create(record: &Record, folder: &Path) -> io::Result<Self> {
-        let table = columns(record)
-            .map(|columns| Table::create(&table_path(record, folder), &columns))
-            .transpose()?;
+        let path = table_path(record, folder);
+        let table = columns(record).map(|columns| named(&path, Table::create(&path, &columns)));
+        let table = table.transpose()?;
         Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
     }
 
-    /// Goes on with a record whose table had `length` bytes; what came after is dropped.
-    pub fn reopen(record: &Record, folder: &Path, length: u64) -> io::Result<Self> {
-        let table = columns(record)
-            .map(|_| Table::reopen(&table_path(record, folder), length))
-            .transpose()?;
+    /// Opens a record whose table began with what `mark` says; errors if it does not any more. Changes
+    /// nothing: [`Recorder::go_on`] drops what came after.
+    pub fn reopen(record: &Record, folder: &Path, mark: Mark) -> io::Result<Self> {
+        let path = table_path(record, folder);
+        let table =
+            columns(record).map(|_| named(&path, Table::reopen(&path, mark))).transpose()?;
         Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
+    }
+
+    /// Goes on after [`Recorder::reopen`].
+    pub fn go_on(&mut self) -> io::Result<()> {
+        let path = table_path(&self.record, &self.folder);
+        self.table.as_mut().map_or(Ok(()), |table| named(&path, table.cut()))
+    }
+
+    /// Copies a table into `folder`, also after its own has gone.
+    pub fn copy_to(&mut self, folder: &Path) -> io::Result<()> {
+        let path = table_path(&self.record, folder);
+        self.table.as_mut().map_or(Ok(()), |table| named(&path, table.copy_to(&path)))
     }
 
     /// Takes it for now.
     pub fn take(&mut self, scene: &Scene, engine: &dyn Engine) -> io::Result<()> {
-        let Some(table) = &mut self.table else {
-            return snapshots::take(&self.record, scene, engine, &self.folder);
-        };
+        let path = table_path(&self.record, &self.folder);
+        match self.table {
+            Some(_) => {
+                named(&path, self.take_rows(scene, engine))?;
+                // An open file takes rows also when it has been removed, and loses them at the end.
+                named(&path, path.metadata().map(|_| ()))
+            }
+            None => {
+                let taken = snapshots::take(&self.record, scene, engine, &self.folder);
+                named(&self.folder.join(&self.record.name), taken)
+            }
+        }
+    }
+
+    fn take_rows(&mut self, scene: &Scene, engine: &dyn Engine) -> io::Result<()> {
+        let Some(table) = &mut self.table else { return Ok(()) };
         let steps = engine.steps();
         let now = [Value::Real(steps as f64 * scene.units.si_dt), Value::Whole(steps)];
         let mut add = |start: &[Value], values: &[f64]| {
@@ -120,15 +146,21 @@ impl Recorder {
         table.flush()
     }
 
-    /// Waits until all rows are on the disk; returns the length of the table in bytes, 0 for a
-    /// record that is none.
-    pub fn sync(&mut self) -> io::Result<u64> {
-        self.table.as_mut().map_or(Ok(0), Table::sync)
+    /// Waits until all rows are on the disk; returns what the table holds, nothing for a record that is
+    /// none.
+    pub fn sync(&mut self) -> io::Result<Mark> {
+        let path = table_path(&self.record, &self.folder);
+        self.table.as_mut().map_or(Ok(Mark::default()), |table| named(&path, table.sync()))
     }
 }
 
 fn table_path(record: &Record, folder: &Path) -> PathBuf {
-    folder.join(format!("{}.csv", record.name))
+    folder.join(names::table(&record.name))
+}
+
+/// Names the file in an error.
+fn named<T>(path: &Path, result: io::Result<T>) -> io::Result<T> {
+    result.map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))
 }
 
 /// The columns of a record that is a table.

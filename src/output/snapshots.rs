@@ -1,6 +1,5 @@
 //! Snapshots: all cells, a plane, or all grains, at one time, each in files of its own.
 
-use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -8,7 +7,7 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::solids::Load;
 
 use super::vtk::Array;
-use super::{atomic, grain_means, npy, vtk};
+use super::{atomic, grain_means, names, npy, vtk};
 use crate::engine::{CellState, Engine};
 use crate::scene::format_run::FieldFormat;
 use crate::scene::{Record, Rhythm, Scene, What};
@@ -17,7 +16,6 @@ use crate::scene::{Record, Rhythm, Scene, What};
 pub fn take(record: &Record, scene: &Scene, engine: &dyn Engine, folder: &Path) -> io::Result<()> {
     let name = &record.name;
     let folder_of_files = folder.join(name);
-    fs::create_dir_all(&folder_of_files)?;
     let step = engine.steps();
     let suffix = match &record.what {
         What::Grains => {
@@ -50,7 +48,7 @@ pub fn take(record: &Record, scene: &Scene, engine: &dyn Engine, folder: &Path) 
         (scene.units.si_dt * step as f64, format!("{name}/{}", file(name, step, suffix)))
     };
     let entries: Vec<_> = times.iter().map(entry).collect();
-    atomic::write(&folder.join(format!("{name}.pvd")), |out| vtk::series(out, &entries))
+    atomic::write(&folder.join(names::series(name)), |out| vtk::series(out, &entries))
 }
 
 fn file(name: &str, step: u64, suffix: &str) -> String {

@@ -155,6 +155,17 @@ pub enum EngineKind {
     Auto,
 }
 
+impl EngineKind {
+    /// As scenes spell it.
+    pub fn word(self) -> &'static str {
+        match self {
+            EngineKind::Reference => "reference",
+            EngineKind::Wgpu => "wgpu",
+            EngineKind::Auto => "auto",
+        }
+    }
+}
+
 /// An exact solution to compare with.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

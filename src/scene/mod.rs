@@ -2,29 +2,37 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `source.rs` | text, `--set`, and where each key stands |
+//! | `source.rs`, `path.rs` | the text, and where each key stands |
+//! | `changes.rs` | `--set` |
 //! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_run.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
+//! | `shape.rs` | sections, keys and types as the schema has them |
+//! | `hints.rs`, `synonyms.rs` | what to write instead |
 //! | `units.rs` | SI units and lattice units |
-//! | `trouble.rs`, `words.rs` | the one message about what is wrong |
+//! | `trouble.rs` | the one message about what is wrong |
 //! | `schema.rs` | the JSON schema |
 
+mod changes;
 pub mod check;
 pub mod format;
 pub mod format_free;
 pub mod format_grains;
 pub mod format_run;
+mod hints;
+mod path;
 pub mod schema;
+mod shape;
 mod source;
+mod synonyms;
 pub mod trouble;
 pub mod units;
-mod words;
 
 use std::path::Path;
 
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
+pub use changes::differ;
 pub use check::checkpoint::Interval;
 pub use check::free::FreePart;
 pub use check::grains::Attachment;
@@ -35,7 +43,11 @@ pub use trouble::{SceneError, Trouble};
 pub use units::Units;
 
 use crate::exact::PlanePoiseuille;
+use crate::{input, quote};
 use source::Source;
+
+/// Bytes that a scene file may have: grains by the million stand in lists beside it.
+const LARGEST: u64 = 16 * input::MIB;
 
 /// A scene that has been checked: what to compute, record and compare.
 #[derive(Clone, Debug)]
@@ -73,10 +85,10 @@ pub struct Scene {
 impl Scene {
     /// Reads and checks a scene file, after the changes `key=value` of `--set`.
     pub fn load(path: &Path, changes: &[String]) -> Result<Self, Box<SceneError>> {
-        let name = path.display().to_string();
-        let bytes = std::fs::read(path).map_err(|error| {
+        let name = quote::path(path);
+        let bytes = input::read(path, LARGEST).map_err(|error| {
             let remedy = "give the name of a scene file, for example golden/poiseuille/scene.toml";
-            SceneError::whole_file(&name, format!("it cannot be read: {error}"), remedy)
+            SceneError::whole_file(&name, error.to_string(), remedy)
         })?;
         Self::from_bytes(&name, bytes, path.parent().unwrap_or(Path::new("")), changes)
     }
@@ -95,14 +107,16 @@ impl Scene {
         Ok(Scene { text: source.text, ..scene })
     }
 
-    /// The same scene with its text naming the copies of its files: [`Attachment::file_name`].
-    pub fn with_copied_attachments(self) -> Result<Self, Box<SceneError>> {
-        let changes: Vec<String> = self
-            .attachments
-            .iter()
-            .map(|copy| format!("grains[{}].file=\"{}\"", copy.section, copy.file_name()))
-            .collect();
+    /// The same scene as a run keeps it, so that it goes on with the same: its text names the copies of its
+    /// files ([`Attachment::file_name`]), and the `engine` that computes it where that was left open.
+    pub fn as_run(self, engine: EngineKind) -> Result<Self, Box<SceneError>> {
+        let copy =
+            |list: &Attachment| format!("grains[{}].file=\"{}\"", list.section, list.file_name());
+        let mut changes: Vec<String> = self.attachments.iter().map(copy).collect();
+        if self.engine != engine {
+            changes.push(format!("engine.kind=\"{}\"", engine.word()));
+        }
         let source = Source::new("scene.toml", self.text.into_bytes(), &changes)?;
-        Ok(Scene { text: source.text, ..self })
+        Ok(Scene { text: source.text, engine, ..self })
     }
 }

@@ -1,5 +1,7 @@
 //! The JSON schema of scene files, made from the comments in [`super::format`].
 
+use std::sync::LazyLock;
+
 use serde_json::Value;
 
 use super::format::SceneFile;
@@ -7,20 +9,24 @@ use crate::stability::Model;
 use crate::stability::limits::Measured;
 use psmrt_reference::partial_saturation::Weighting;
 
-/// The schema, for editors that complete and check TOML.
-pub fn schema() -> Value {
+static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
     let mut schema = schemars::schema_for!(SceneFile).to_value();
     if let Some(object) = schema.as_object_mut() {
         object.insert("title".to_owned(), "psmrt scene".into());
     }
     schema
+});
+
+/// The schema, for editors that complete and check TOML.
+pub fn schema() -> &'static Value {
+    &SCHEMA
 }
 
 /// The reference: all sections and keys as Markdown, in the order of the schema.
 pub fn reference() -> String {
     let root = schema();
     let mut text = String::from(REFERENCE_HEAD);
-    let mut sections = vec![(String::new(), &root)];
+    let mut sections = vec![(String::new(), root)];
     let mut next = 0;
     while let Some((path, node)) = sections.get(next).cloned() {
         next += 1;
@@ -31,15 +37,15 @@ pub fn reference() -> String {
             .as_array()
             .map_or_else(Vec::new, |names| names.iter().filter_map(Value::as_str).collect());
         for (name, key) in node["properties"].as_object().into_iter().flatten() {
-            let (value, section) = value_of(&root, key);
-            if let Some((marks, inner)) = section {
+            let kind = Kind::of(root, key);
+            if let Kind::Section(inner) | Kind::Sections(inner) = kind {
                 let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
-                let shown = if marks { format!("[[{path}]]") } else { format!("[{path}]") };
                 // Faces are alike: one table is enough.
                 if !sections.iter().any(|(_, known)| std::ptr::eq(*known, inner)) {
-                    sections.push((shown.trim_matches(['[', ']']).to_owned(), inner));
+                    sections.push((path, inner));
                 }
             }
+            let value = kind.words();
             let needed = if needed.contains(&name.as_str()) { "yes" } else { "" };
             let meaning = description(key).replace('|', "\\|");
             text.push_str(&format!("| `{name}` | {value} | {needed} | {meaning} |\n"));
@@ -94,43 +100,95 @@ Made by `psmrt schema --markdown` from the comments in the code; do not edit. TO
 absent costs nothing. `psmrt check` says what a scene will be. Scenes to start from: `golden/`.
 ";
 
-/// What may stand behind a key, in words, and the section that it opens, if it does: whether there
-/// may be several, and its node.
-fn value_of<'a>(root: &'a Value, key: &'a Value) -> (String, Option<(bool, &'a Value)>) {
-    let node = resolve(root, key).unwrap_or(key);
-    if node.get("properties").is_some() {
-        return ("section".to_owned(), Some((false, node)));
-    }
-    if let Some(names) = names(node) {
-        return (names, None);
-    }
-    let kind = match &node["type"] {
-        Value::Array(kinds) => kinds.first().and_then(Value::as_str).unwrap_or(""),
-        kind => kind.as_str().unwrap_or(""),
-    };
-    match kind {
-        "array" => {
-            let item = resolve(root, &node["items"]).unwrap_or(&node["items"]);
-            if item.get("properties").is_some() {
-                return ("sections".to_owned(), Some((true, item)));
-            }
-            match (node.get("minItems").and_then(Value::as_u64), names(item)) {
-                (Some(count), _) => (format!("{count} numbers"), None),
-                (None, names) => (format!("list of {}", names.unwrap_or_default()), None),
-            }
+/// What may stand behind a key.
+pub(super) enum Kind<'a> {
+    /// A section, its node.
+    Section(&'a Value),
+    /// Several sections, their node.
+    Sections(&'a Value),
+    /// One of some words.
+    Word(Vec<&'a str>),
+    /// So many numbers, whole ones or any.
+    Numbers {
+        /// How many.
+        count: u64,
+        /// Whether they are whole.
+        whole: bool,
+    },
+    /// A list of some words.
+    Words(Vec<&'a str>),
+    /// A number.
+    Number,
+    /// A whole number.
+    Whole,
+    /// `true` or `false`.
+    Switch,
+    /// Text.
+    Text,
+    /// None of these: left to serde.
+    Other,
+}
+
+impl<'a> Kind<'a> {
+    /// Of the node of a key.
+    pub(super) fn of(root: &'a Value, key: &'a Value) -> Self {
+        let node = resolve(root, key).unwrap_or(key);
+        if node.get("properties").is_some() {
+            return Kind::Section(node);
         }
-        "integer" => ("whole number".to_owned(), None),
-        "string" => ("text".to_owned(), None),
-        kind => (kind.to_owned(), None),
+        if let Some(words) = words(node) {
+            return Kind::Word(words);
+        }
+        let kind = match &node["type"] {
+            Value::Array(kinds) => kinds.first().and_then(Value::as_str).unwrap_or(""),
+            kind => kind.as_str().unwrap_or(""),
+        };
+        match kind {
+            "array" => {
+                let item = resolve(root, &node["items"]).unwrap_or(&node["items"]);
+                if item.get("properties").is_some() {
+                    return Kind::Sections(item);
+                }
+                let whole = item["type"] == "integer";
+                match (node.get("minItems").and_then(Value::as_u64), words(item)) {
+                    (Some(count), _) => Kind::Numbers { count, whole },
+                    (None, words) => Kind::Words(words.unwrap_or_default()),
+                }
+            }
+            "integer" => Kind::Whole,
+            "boolean" => Kind::Switch,
+            "string" => Kind::Text,
+            "number" => Kind::Number,
+            _ => Kind::Other,
+        }
+    }
+
+    /// In words, for the reference.
+    pub(super) fn words(&self) -> String {
+        match self {
+            Kind::Section(_) => "section".to_owned(),
+            Kind::Sections(_) => "sections".to_owned(),
+            Kind::Word(words) => listed(words),
+            Kind::Numbers { count, .. } => format!("{count} numbers"),
+            Kind::Words(words) => format!("list of {}", listed(words)),
+            Kind::Number => "number".to_owned(),
+            Kind::Whole => "whole number".to_owned(),
+            Kind::Switch => "boolean".to_owned(),
+            Kind::Text => "text".to_owned(),
+            Kind::Other => String::new(),
+        }
     }
 }
 
-/// The names that an enumeration allows.
-fn names(node: &Value) -> Option<String> {
+/// The words that an enumeration allows.
+fn words<'a>(node: &'a Value) -> Option<Vec<&'a str>> {
     let choices = node.get("oneOf").or_else(|| node.get("enum"))?.as_array()?;
-    let name = |choice: &Value| Some(choice.get("const").unwrap_or(choice).as_str()?.to_owned());
-    let names: Vec<String> = choices.iter().filter_map(name).collect();
-    Some(names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "))
+    let word = |choice: &'a Value| choice.get("const").unwrap_or(choice).as_str();
+    Some(choices.iter().filter_map(word).collect())
+}
+
+fn listed(words: &[&str]) -> String {
+    words.iter().map(|word| format!("`{word}`")).collect::<Vec<_>>().join(", ")
 }
 
 fn description(node: &Value) -> String {
@@ -140,18 +198,18 @@ fn description(node: &Value) -> String {
 /// The description of a key given by its dotted path, if there is such a key.
 pub fn describe(key: &str) -> Option<String> {
     let root = schema();
-    let mut at = &root;
+    let mut at = root;
     for part in key.split('.') {
         let (name, indexed) = match part.split_once('[') {
             Some((name, _)) => (name, true),
             None => (part, false),
         };
-        at = resolve(&root, at)?.get("properties")?.get(name)?;
+        at = resolve(root, at)?.get("properties")?.get(name)?;
         if indexed {
             at = at.get("items")?;
         }
     }
-    let description = at.get("description").or_else(|| resolve(&root, at)?.get("description"))?;
+    let description = at.get("description").or_else(|| resolve(root, at)?.get("description"))?;
     Some(description.as_str()?.replace('\n', " "))
 }
 

@@ -1,10 +1,13 @@
-//! The text of a scene file: parsed, changed by `--set`, and searched for the place of a key.
+//! The text of a scene file: parsed, and searched for the place of a key.
 
 use std::ops::Range;
 
-use toml_edit::{Document, DocumentMut, Item, Table, TableLike, Value};
+use toml_edit::{Document, DocumentMut, Item};
 
+use super::path::Path;
 use super::trouble::{SceneError, Trouble};
+use super::{changes, shape};
+use crate::quote;
 
 /// A scene file that is valid TOML.
 #[derive(Clone, Debug)]
@@ -31,14 +34,9 @@ impl Source {
         }
         let (mut file, mut text) = (file.to_owned(), text);
         if !changes.is_empty() {
-            let mut document =
+            let document =
                 text.parse::<DocumentMut>().map_err(|error| syntax(&file, &text, &error))?;
-            for change in changes {
-                set(&mut document, change).map_err(|trouble| {
-                    SceneError::whole_file("--set", trouble.problem, trouble.remedy)
-                })?;
-            }
-            text = document.to_string();
+            text = changes::applied(document, changes)?;
             file.push_str(" (with --set)");
         }
         let document =
@@ -48,11 +46,14 @@ impl Source {
 
     /// Reads the document into a type. Errors name the key and the place.
     pub fn read<T: serde::de::DeserializeOwned>(&self) -> Result<T, Box<SceneError>> {
+        shape::check(self.document.as_table()).map_err(|misfit| {
+            let span = misfit.span.unwrap_or_else(|| self.span_of(&misfit.key));
+            self.error_at(misfit.key, span, misfit.problem, misfit.remedy)
+        })?;
         toml_edit::de::from_document(self.document.clone()).map_err(|error| {
-            let span = error.span().unwrap_or(0..0);
-            let (key, problem, remedy) =
-                super::words::of_serde(error.message(), &self.key_at(&span), self.slice(&span));
-            self.error_at(key, span, problem, remedy)
+            let remedy = "see `psmrt schema` for what a scene may hold".to_owned();
+            let problem = quote::shown(error.message());
+            self.error_at(String::new(), error.span().unwrap_or(0..0), problem, remedy)
         })
     }
 
@@ -70,14 +71,14 @@ impl Source {
         remedy: String,
     ) -> Box<SceneError> {
         let line = self.text[..span.start].matches('\n').count() + 1;
-        let (path, value) = (Path::of(&key), self.slice(&span).to_owned());
-        let is_value = path
-            .walk(&self.document)
+        let value = quote::shown(self.text.get(span.clone()).unwrap_or(""));
+        let is_value = Path::parse(&key)
+            .and_then(|path| path.walk(self.document.as_item()).cloned())
             .is_some_and(|item| item.is_value() && item.span().as_ref() == Some(&span));
         Box::new(SceneError {
             file: self.file.clone(),
             line: Some(line),
-            key,
+            key: quote::shown(&key),
             value: is_value.then_some(value),
             problem,
             remedy,
@@ -85,100 +86,16 @@ impl Source {
         })
     }
 
-    fn slice(&self, span: &Range<usize>) -> &str {
-        self.text.get(span.clone()).unwrap_or("")
-    }
-
     /// The place of a key's value, or of the closest table around it.
     fn span_of(&self, key: &str) -> Range<usize> {
-        let mut path = Path::of(key);
-        loop {
-            if let Some(span) = path.walk(&self.document).and_then(Item::span) {
+        let mut path = Path::parse(key).unwrap_or(Path(Vec::new()));
+        while !path.0.is_empty() {
+            if let Some(span) = path.walk(self.document.as_item()).and_then(Item::span) {
                 return span;
             }
-            if path.0.pop().is_none() {
-                return 0..self.text.lines().next().map_or(0, str::len);
-            }
+            path.0.pop();
         }
-    }
-
-    /// The dotted path of the innermost key whose name or value contains `span`.
-    fn key_at(&self, span: &Range<usize>) -> String {
-        let mut path = String::new();
-        descend(self.document.as_table(), span, &mut path);
-        path
-    }
-}
-
-/// Appends the path of the innermost key in `table` that contains `span`.
-fn descend(table: &dyn TableLike, span: &Range<usize>, path: &mut String) {
-    let holds = |outer: Option<Range<usize>>| {
-        outer.is_some_and(|outer| outer.start <= span.start && span.end <= outer.end)
-    };
-    for (name, item) in table.iter() {
-        let key_span = table.get_key_value(name).and_then(|(key, _)| key.span());
-        let length = path.len();
-        if !path.is_empty() {
-            path.push('.');
-        }
-        path.push_str(name);
-        if holds(key_span) {
-            return;
-        }
-        match item {
-            Item::ArrayOfTables(tables) => {
-                for (number, table) in tables.iter().enumerate() {
-                    let length = path.len();
-                    path.push_str(&format!("[{number}]"));
-                    let before = path.len();
-                    descend(table, span, path);
-                    if path.len() > before || holds(table.span()) {
-                        return;
-                    }
-                    path.truncate(length);
-                }
-            }
-            Item::Table(_) | Item::Value(Value::InlineTable(_)) => {
-                let before = path.len();
-                if let Some(inner) = item.as_table_like() {
-                    descend(inner, span, path);
-                }
-                if path.len() > before || holds(item.span()) {
-                    return;
-                }
-            }
-            _ if holds(item.span()) => return,
-            _ => {}
-        }
-        path.truncate(length);
-    }
-}
-
-/// A dotted path: `records[1].axis` is `records`, 1, `axis`.
-struct Path(Vec<Step>);
-
-enum Step {
-    Name(String),
-    Number(usize),
-}
-
-impl Path {
-    fn of(key: &str) -> Self {
-        let mut steps = Vec::new();
-        for part in key.split('.').filter(|part| !part.is_empty()) {
-            let mut pieces = part.split('[');
-            steps.extend(pieces.next().map(|name| Step::Name(name.trim().to_owned())));
-            let numbers = pieces.filter_map(|piece| piece.strip_suffix(']')?.parse().ok());
-            steps.extend(numbers.map(Step::Number));
-        }
-        Path(steps)
-    }
-
-    fn walk<'a>(&self, document: &'a Document<String>) -> Option<&'a Item> {
-        self.0.iter().try_fold(document.as_item(), |item, step| match step {
-            Step::Name(name) => item.get(name),
-            Step::Number(number) => item.get(number),
-        })
+        0..self.text.lines().next().map_or(0, str::len)
     }
 }
 
@@ -187,49 +104,28 @@ fn syntax(file: &str, text: &str, error: &toml_edit::TomlError) -> Box<SceneErro
     let span = error.span().unwrap_or(0..0);
     let end = span.end.min(text.len());
     let start = span.start.min(end);
+    let found = quote::shown(text.get(start..end).unwrap_or(""));
+    let (problem, remedy) = match error.message() {
+        "integer number overflowed" => (
+            format!("{found} is too large for a whole number: 9223372036854775807 is the limit"),
+            "write a smaller one; where any number may stand, 1e30 is one",
+        ),
+        "floating-point number overflowed" => (
+            format!("{found} is too large for a number: 1.8e308 is the limit"),
+            "write a smaller one",
+        ),
+        message => (
+            format!("this is not valid TOML: {}", quote::shown(message)),
+            "a line is `key = value`, a section starts with [name]; text needs \"quotes\"",
+        ),
+    };
     Box::new(SceneError {
         file: file.to_owned(),
         line: Some(text[..start].matches('\n').count() + 1),
         key: String::new(),
         value: None,
-        problem: format!("this is not valid TOML: {}", error.message()),
-        remedy: "a line is `key = value`, a section starts with [name]; text needs \"quotes\""
-            .to_owned(),
+        problem,
+        remedy: remedy.to_owned(),
         place: Some((text.to_owned(), start..end)),
     })
-}
-
-/// Applies one `key=value` of the command line.
-fn set(document: &mut DocumentMut, change: &str) -> Result<(), Trouble> {
-    let remedy = "write it as --set fluid.density=998 or --set collision.rates=magic";
-    let bad = |problem: String| Trouble::new("", problem, remedy);
-    let Some((key, value)) = change.split_once('=') else {
-        return Err(bad(format!("--set {change} has no `=`")));
-    };
-    // What is not a TOML value (a bare word) is taken for text.
-    let value =
-        value.trim().parse::<Value>().unwrap_or_else(|_| Value::from(value.trim().to_owned()));
-    let Path(steps) = Path::of(key);
-    let Some((last, parents)) = steps.split_last() else {
-        return Err(bad(format!("--set {change} names no key")));
-    };
-    let mut item = document.as_item_mut();
-    for step in parents {
-        item = match step {
-            Step::Name(name) => item
-                .as_table_like_mut()
-                .map(|table| table.entry(name).or_insert(Item::Table(Table::new()))),
-            Step::Number(number) => item.get_mut(number),
-        }
-        .ok_or_else(|| bad(format!("--set {change}: the scene has no such section")))?;
-    }
-    let slot = match last {
-        Step::Name(name) => {
-            item.as_table_like_mut().map(|table| table.entry(name).or_insert(Item::None))
-        }
-        Step::Number(number) => item.get_mut(number),
-    };
-    let slot = slot.ok_or_else(|| bad(format!("--set {change}: the scene has no such key")))?;
-    *slot = Item::Value(value);
-    Ok(())
 }

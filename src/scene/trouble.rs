@@ -6,6 +6,8 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde::Serialize;
 
+use crate::quote;
+
 /// What a check has found, before anyone has looked up where in the file it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trouble {
@@ -25,6 +27,14 @@ impl Trouble {
         remedy: impl Into<String>,
     ) -> Self {
         Trouble { key: key.into(), problem: problem.into(), remedy: remedy.into() }
+    }
+
+    /// The same about a line of the file that the key names.
+    pub(super) fn on_line(self, line: Option<usize>) -> Self {
+        match line {
+            Some(line) => Trouble { problem: format!("line {line}: {}", self.problem), ..self },
+            None => self,
+        }
     }
 }
 
@@ -71,10 +81,8 @@ impl SceneError {
     /// `key = value` as the file has it, or the key alone.
     fn subject(&self) -> String {
         match &self.value {
-            Some(value) if !value.contains('\n') && value.len() <= 60 => {
-                format!("{} = {value}", self.key)
-            }
-            _ => self.key.clone(),
+            Some(value) => format!("{} = {value}", self.key),
+            None => self.key.clone(),
         }
     }
 
@@ -86,16 +94,19 @@ impl SceneError {
         } else {
             format!("{subject}: {}", self.problem)
         };
-        let group = Level::ERROR.primary_title(title);
+        let group = Level::ERROR.primary_title(quote::lines(&title));
         let group = match &self.place {
             Some((text, span)) => group.element(
                 Snippet::source(text)
                     .path(&self.file)
                     .annotation(AnnotationKind::Primary.span(span.clone())),
             ),
+            None if self.file.starts_with("--") => {
+                group.element(Level::NOTE.message(format!("on the command line, {}", self.file)))
+            }
             None => group.element(Level::NOTE.message(format!("in the scene file {}", self.file))),
         };
-        renderer.render(&[group.element(Level::HELP.message(&self.remedy))])
+        renderer.render(&[group.element(Level::HELP.message(quote::lines(&self.remedy)))])
     }
 }
 

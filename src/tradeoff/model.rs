@@ -1,7 +1,7 @@
 //! Error models: what the physics says with free numbers, fitted to the evidence, with bands.
 //!
 //! **Grains.** Each full cell lets a flux through in proportion to the pressure gradient
-//! (`tests/leakage.rs`): a body of permeability ν/2. The velocity under a given force is therefore too
+//! (`tests/oracle/leakage.rs`): a body of permeability ν/2. The velocity under a given force is therefore too
 //! large by a share that falls as `d²`, grows with `τ - 1/2` and with the drag `K` over Stokes' drag. What
 //! remains comes from cells that are covered in part, and falls faster:
 //!

@@ -146,7 +146,7 @@ fn array(
     let (si_dx, si_dt) = (SI_DX, si_dt(knobs, SI_DX));
     // The drag stops the fluid in V/(n 6π ν a K) steps, the slowest time; rows come every half of it.
     let rows = (0.5 * volume / (stokes * drag)).ceil() + 8.0;
-    // The start takes the leak for known: x = 3 (τ - 1/2) K/d² (tests/sphere_arrays.rs).
+    // The start takes the leak for known: x = 3 (τ - 1/2) K/d² (tests/oracle/sphere_arrays.rs).
     let start = u * (1.0 + 3.0 * (knobs.tau - 0.5) * drag / (d * d));
     let (scene, sites) = if places.is_empty() { sites(lattice) } else { ("random", places) };
     let across = if places.is_empty() { n / 2 } else { n };

@@ -1,6 +1,7 @@
-//! What the acceptance tests share: budgets of cell updates, steady states, slopes.
+//! What the tests of all packages share: budgets of cell updates, steady states, slopes. It knows the
+//! oracle only; what needs a device is in `tests/trials`.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses a part of this")]
+#![allow(dead_code, reason = "each test binary is a crate of its own and uses a part of this")]
 
 pub mod arrays;
 pub mod collisions;
@@ -9,10 +10,9 @@ pub mod random;
 pub mod settling;
 pub mod sphere_quadrature;
 pub mod suspension;
-pub mod trials;
 
-use psmrt::kernel::Kernel;
 use psmrt_reference::solver::Solver;
+use std::path::Path;
 
 /// The cell updates that a test may spend on the oracle; `tests/tidy.rs` adds up the literals of all
 /// tests. A run that would need more fails instead of passing unconverged.
@@ -47,12 +47,6 @@ impl Budget {
     pub fn run(&mut self, solver: &mut Solver, steps: u64) {
         self.spend(steps * solver.domain().cell_count() as u64);
         solver.run(steps).unwrap_or_else(|stopped| panic!("{stopped}"));
-    }
-
-    /// Makes `steps` steps on the device.
-    pub fn advance(&mut self, kernel: &mut Kernel, steps: u64) {
-        self.spend(steps * kernel.setup().domain.cell_count() as u64);
-        kernel.advance(steps, true).unwrap_or_else(|error| panic!("{error}"));
     }
 
     /// Runs until `observe` is steady and returns its value: until three windows of `window` steps
@@ -99,7 +93,10 @@ pub fn observed_order(points: &[(f64, f64)]) -> f64 {
 /// The rows of a CSV file under `golden/` (lines that start with `#` are comments), the first being
 /// the header.
 pub fn golden_rows(file: &str) -> Vec<csv::StringRecord> {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(file);
+    // The package under test lies in the repository or is its root.
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let golden = package.ancestors().map(|folder| folder.join("golden")).find(|g| g.is_dir());
+    let path = golden.expect("no folder golden/ around the package").join(file);
     csv::ReaderBuilder::new()
         .comment(Some(b'#'))
         .has_headers(false)

@@ -15,9 +15,10 @@ use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::{Shape, Solid};
 use psmrt_reference::solver::Solver;
 
+use crate::common::Budget;
 use crate::common::collisions::{dhumieres, magic, srt};
 use crate::common::random::Random;
-use crate::common::{Budget, trials};
+use crate::trials;
 
 pub const CELLS: [usize; 3] = [6, 5, 4];
 

@@ -10,7 +10,7 @@
 //!
 //! How long a sub-step may be is measured in shortest contact times ([`ContactLaw::shortest_time`]).
 //! Largest error of the restitution of a central impact, over restitutions from 0.05 to 1 and wherever
-//! in a sub-step the contact begins and ends (`tests/grains_motion.rs`):
+//! in a sub-step the contact begins and ends (`tests/oracle/grains_motion.rs`):
 //!
 //! | sub-steps per contact | 10 | 15 | 25 | 50 |
 //! |---|---|---|---|---|

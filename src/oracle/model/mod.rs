@@ -1,6 +1,6 @@
 //! A second, small implementation of everything that the kit asks, with a switch for each mistake of
 //! the catalogue. It shares vocabulary with the oracle and nothing else, except `M` and the exact
-//! coverage of a sphere, which `tests/moments.rs` and `tests/coverage.rs` hold to other sources.
+//! coverage of a sphere, which `tests/oracle/moments.rs` and `tests/oracle/coverage.rs` hold to other sources.
 //!
 //! It serves twice: without a mistake, its numbers carry the gauges of the kit (and agree with the
 //! oracle, which a test holds); with one, it says what a candidate that makes it would answer.

@@ -4,73 +4,112 @@ use std::path::Path;
 
 use super::Trouble;
 use super::grains::Ball;
+pub use super::list_header::COLUMNS;
+use super::list_header::{Column, columns, wanted};
+use super::list_text::{Fault, as_decimal_comma, as_fortran, cells, decoded, numbered_lines};
+use crate::input;
+use crate::quote::{self, quoted};
 
-/// The first line of a list of grains; the last column may be absent.
-pub const COLUMNS: [&str; 5] = ["x (m)", "y (m)", "z (m)", "diameter (m)", "density (kg/m3)"];
-
-/// Columns that must be there.
-const NEEDED: usize = 4;
+/// Bytes that a list may have: some ten million grains.
+const LARGEST: u64 = 1024 * input::MIB;
 
 /// The contents of a file and the grains in it.
 pub(super) fn read(key: &str, path: &Path) -> Result<(Vec<u8>, Vec<Ball>), Trouble> {
-    let shown = path.display();
-    let bytes = std::fs::read(path).map_err(|error| {
-        let remedy = "the name is relative to the scene file";
-        Trouble::new(key, format!("{shown} cannot be read: {error}"), remedy)
+    let shown = quote::path(path);
+    let bytes = input::read(path, LARGEST).map_err(|error| {
+        let remedy = "give the name of a list of grains (CSV), relative to the scene file";
+        Trouble::new(key, format!("{shown}: {error}"), remedy)
     })?;
-    let wanted = COLUMNS[..NEEDED].join(",");
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(&bytes[..]);
-    let bad = |line: u64, problem: String, remedy: String| {
-        Err(Trouble::new(key, format!("{shown}, line {line}: {problem}"), remedy))
-    };
-    let columns = match reader.headers() {
-        Ok(columns) => columns.clone(),
-        Err(error) => return bad(1, error.to_string(), format!("let it start with {wanted}")),
-    };
-    for (number, name) in COLUMNS.iter().enumerate() {
-        if columns.get(number) != Some(name) && (number < NEEDED || columns.len() > NEEDED) {
-            let found = columns.get(number).unwrap_or("");
-            let problem = format!("column {} is \"{found}\", not \"{name}\"", number + 1);
-            let remedy = format!("let the first line be {wanted} and perhaps ,{}", COLUMNS[NEEDED]);
-            return bad(1, problem, remedy);
-        }
-    }
-    if let Some(extra) = columns.get(COLUMNS.len()) {
-        return bad(
-            1,
-            format!("there is a column too many, \"{extra}\""),
-            format!("keep {wanted}"),
-        );
-    }
-    let mut balls = Vec::new();
-    for row in reader.records() {
-        let row = match row {
-            Ok(row) => row,
-            Err(error) => {
-                let line = error.position().map_or(1, csv::Position::line);
-                return bad(line, error.to_string(), format!("each line has {wanted}"));
-            }
-        };
-        let line = row.position().map_or(1, csv::Position::line);
-        let mut values = [0.0; COLUMNS.len()];
-        for (number, value) in values.iter_mut().enumerate().take(columns.len()) {
-            let text = row.get(number).unwrap_or("");
-            *value = match text.parse::<f64>() {
-                Ok(value) if value.is_finite() && (number < 3 || value > 0.0) => value,
-                _ => {
-                    let problem = format!("{} = \"{text}\" is not allowed", COLUMNS[number]);
-                    let remedy = "give finite numbers, and diameter and density above 0";
-                    return bad(line, problem, remedy.to_owned());
-                }
-            };
-        }
-        let [x, y, z, si_diameter, density] = values;
-        let si_density = (columns.len() > NEEDED).then_some(density);
-        balls.push(Ball { si_centre: [x, y, z], si_diameter, si_density });
-    }
-    if balls.is_empty() {
-        return bad(2, "there are no grains in it".to_owned(), "add a line for each".to_owned());
-    }
+    let of_file =
+        |(problem, remedy): Fault| Trouble::new(key, format!("{shown}: {problem}"), remedy);
+    let balls = balls(decoded(&bytes).map_err(of_file)?).map_err(|(line, (problem, remedy))| {
+        Trouble::new(key, format!("{shown}, line {line}: {problem}"), remedy)
+    })?;
     Ok((bytes, balls))
+}
+
+/// The grains of a list, or the line that is wrong.
+fn balls(text: &str) -> Result<Vec<Ball>, (usize, Fault)> {
+    let is_comment = |line: &str| line.trim_start().starts_with('#');
+    let mut lines =
+        numbered_lines(text).filter(|(_, line)| !line.trim().is_empty() && !is_comment(line));
+    let Some((first, header)) = lines.next() else {
+        let remedy = format!("let it begin with {}; each further line is a grain", wanted());
+        return Err((1, ("there is nothing in it".to_owned(), remedy)));
+    };
+    let columns = columns(header).map_err(|(problem, remedy)| {
+        // numpy.savetxt writes the header as a comment.
+        let commented = numbered_lines(text).take(first).any(|(_, line)| {
+            is_comment(line) && columns(line.trim_start().trim_start_matches('#')).is_ok()
+        });
+        let remedy = match commented {
+            true => "take the # off the line with the names (numpy.savetxt: comments=\"\")".into(),
+            false => remedy,
+        };
+        (first, (problem, remedy))
+    })?;
+    let balls: Vec<Ball> = lines
+        .map(|(line, row)| ball(row, &columns, line).map_err(|fault| (line, fault)))
+        .collect::<Result<_, _>>()?;
+    if balls.is_empty() {
+        let last = numbered_lines(text).count();
+        return Err((last, ("there are no grains in it".into(), "add a line for each".into())));
+    }
+    Ok(balls)
+}
+
+fn ball(row: &str, columns: &[Column], line: usize) -> Result<Ball, Fault> {
+    let cells = cells(row);
+    if cells.iter().all(|cell| cell.is_empty()) {
+        let problem = "there are only commas in it: an empty row of a spreadsheet";
+        return Err((problem.to_owned(), "remove the line".to_owned()));
+    }
+    if cells.len() != columns.len() {
+        let (found, needed) = (cells.len(), columns.len());
+        let problem = format!("it has {found} values, the first line names {needed} columns");
+        let remedy = match found {
+            found if found == 2 * needed => {
+                "write decimals with points (0.5, not 0,5), and commas between values only"
+            }
+            found if found > needed => "remove what is too much, commas at the end too",
+            _ if row.contains(';') => "separate values by commas, not by semicolons",
+            _ => "each line has a value for each column, separated by commas",
+        };
+        return Err((problem, remedy.to_owned()));
+    }
+    let mut ball =
+        Ball { si_centre: [0.0; 3], si_diameter: 0.0, si_density: None, line: Some(line) };
+    for (column, cell) in columns.iter().zip(cells) {
+        let value = number(*column, cell)?;
+        match *column {
+            Column::Place(axis) => ball.si_centre[axis] = value,
+            Column::Diameter => ball.si_diameter = value,
+            Column::Radius => ball.si_diameter = 2.0 * value,
+            Column::Density => ball.si_density = Some(value),
+        }
+    }
+    Ok(ball)
+}
+
+fn number(column: Column, cell: &str) -> Result<f64, Fault> {
+    let is_place = matches!(column, Column::Place(_));
+    match cell.parse::<f64>() {
+        Ok(value) if value.is_finite() && (is_place || value > 0.0) => return Ok(value),
+        _ => {}
+    }
+    let name = match column {
+        Column::Place(axis) => COLUMNS[axis],
+        Column::Diameter => COLUMNS[3],
+        Column::Radius => "radius (m)",
+        Column::Density => COLUMNS[4],
+    };
+    let problem = format!("{name} = {} is not allowed", quoted(cell));
+    let remedy = if let Some(number) = as_fortran(cell) {
+        format!("write Fortran's D as E: {number}; sed '2,$ s/[dD]/E/g' old.csv > new.csv")
+    } else if let Some(number) = as_decimal_comma(cell) {
+        format!("write decimals with points: {number}")
+    } else {
+        "give finite numbers in SI units, and sizes and densities above 0".to_owned()
+    };
+    Err((problem, remedy))
 }

@@ -6,7 +6,7 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
-use super::numbers::{absent, finite, needed, positive};
+use super::numbers::{absent, beyond, finite, needed, positive, shorter_step};
 use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
 use crate::scene::format_grains::{GrainsSection, Motion};
 use crate::scene::units::Units;
@@ -24,6 +24,8 @@ pub(super) struct Ball {
     pub si_diameter: f64,
     /// Where its file gives one.
     pub si_density: Option<f64>,
+    /// Its line in the file that it comes from, from 1.
+    pub line: Option<usize>,
 }
 
 /// Where grains are put down: the box, and how a key of their section is called.
@@ -47,6 +49,8 @@ pub struct Attachment {
     pub section: usize,
     /// What is in it.
     pub bytes: Vec<u8>,
+    /// Whether it has densities that nobody uses: its grains are not free.
+    pub unused_densities: bool,
 }
 
 impl Attachment {
@@ -60,6 +64,8 @@ impl Attachment {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Listed {
     pub key: String,
+    /// Its line in the file that it comes from.
+    pub line: Option<usize>,
     pub motion: Motion,
     pub centre: Vec3,
     pub radius: f64,
@@ -67,6 +73,21 @@ pub(super) struct Listed {
     pub density: f64,
     pub velocity: Vec3,
     pub spin: Vec3,
+}
+
+impl Listed {
+    /// Trouble with it.
+    pub fn trouble(&self, problem: String, remedy: &str) -> Trouble {
+        Trouble::new(&self.key, problem, remedy).on_line(self.line)
+    }
+
+    /// How messages about several grains call it, `number` from 0.
+    pub fn name(&self, number: usize) -> String {
+        match self.line {
+            Some(line) => format!("grain {number} (from 0; line {line} of {})", self.key),
+            None => format!("grain {number} (from 0; {})", self.key),
+        }
+    }
 }
 
 /// All grains of a scene, and the files they come from.
@@ -91,16 +112,34 @@ impl GrainList {
             let (velocity, spin) = motion(section, &at, units)?;
             let place = Place { at: &at, domain, units };
             let (balls, bytes) = grain_kinds::balls(section, folder, &place)?;
-            list.attachments.extend(bytes.map(|bytes| Attachment { section: number, bytes }));
+            let unused_densities =
+                section.motion != Motion::Free && balls.iter().any(|b| b.si_density.is_some());
+            list.attachments.extend(bytes.map(|bytes| Attachment {
+                section: number,
+                bytes,
+                unused_densities,
+            }));
             for ball in balls {
-                let density = density(section, &at, &ball, units)?;
+                let on_line = |trouble: Trouble| trouble.on_line(ball.line);
+                let density = density(section, &at, &ball, units).map_err(on_line)?;
                 let centre = Units::to_lattice(ball.si_centre, units.si_dx);
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
                 let (key, motion) = (grain_kinds::place_key(section, &at), section.motion);
-                check_size(&grain_kinds::size_key(section, &at), radius, units)?;
-                check_speed(&at("spin"), &velocity, &spin, radius)?;
-                neighbours::inside(&key, domain, &centre, radius, units)?;
-                list.grains.push(Listed { key, motion, centre, radius, density, velocity, spin });
+                check_size(&grain_kinds::size_key(section, &at), radius, domain, units)
+                    .map_err(on_line)?;
+                check_speed(&at("spin"), &velocity, &spin, radius, units).map_err(on_line)?;
+                neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
+                let line = ball.line;
+                list.grains.push(Listed {
+                    key,
+                    line,
+                    motion,
+                    centre,
+                    radius,
+                    density,
+                    velocity,
+                    spin,
+                });
             }
         }
         neighbours::apart(domain, &list.grains, units)?;
@@ -182,7 +221,28 @@ fn density(
 }
 
 /// Errors if a grain is too coarse.
-pub(super) fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Trouble> {
+pub(super) fn check_size(
+    key: &str,
+    radius: f64,
+    domain: &Domain,
+    units: &Units,
+) -> Result<(), Trouble> {
+    let lengths = domain.cells().map(|cells| cells as f64);
+    let largest = 4.0 * Vec3::from(lengths).norm();
+    if 2.0 * radius > largest {
+        let [x, y, z] = lengths.map(|length| length * units.si_dx);
+        let problem = format!(
+            "a grain of {:.4e} m is far larger than the domain ({x:.4e} x {y:.4e} x {z:.4e} m): no fluid is \
+             left, wherever its centre lies",
+            2.0 * radius * units.si_dx
+        );
+        let remedy = format!(
+            "lengths are in metres (a micrometre is 1e-6); a sphere that mirror faces cut may be up to \
+             {:.1e} m across",
+            largest * units.si_dx
+        );
+        return Err(Trouble::new(key, problem, remedy));
+    }
     if 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
         return Ok(());
     }
@@ -192,17 +252,25 @@ pub(super) fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Tr
         2.0 * radius * units.si_dx,
         2.0 * radius
     );
-    let remedy = format!("use `domain.dx` = {:.3e} m or less", radius * units.si_dx / 4.0);
+    let remedy = format!("use `domain.dx = {:.3e}` (m) or less", radius * units.si_dx / 4.0);
     Err(Trouble::new(key, problem, remedy))
 }
 
-fn check_speed(key: &str, velocity: &Vec3, spin: &Vec3, radius: f64) -> Result<(), Trouble> {
+fn check_speed(
+    key: &str,
+    velocity: &Vec3,
+    spin: &Vec3,
+    radius: f64,
+    units: &Units,
+) -> Result<(), Trouble> {
     let speed = velocity.norm() + spin.norm() * radius;
     if speed <= MAX_SPEED {
         return Ok(());
     }
     let problem = format!(
-        "the surface moves at {speed:.3} cells per time step; at most {MAX_SPEED} is allowed"
+        "the surface moves at {} cells per time step; at most {MAX_SPEED} is allowed",
+        beyond(speed, MAX_SPEED)
     );
-    Err(Trouble::new(key, problem, "use a slower spin or a shorter time step"))
+    let remedy = shorter_step(units, 0.5 * MAX_SPEED / speed) + ", or use a slower spin";
+    Err(Trouble::new(key, problem, remedy))
 }

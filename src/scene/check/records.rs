@@ -1,13 +1,14 @@
 //! What to record and how often.
 
-use std::collections::HashSet;
 use std::fmt;
 
 use psmrt_reference::domain::Domain;
 use psmrt_reference::setup::Setup;
 
 use super::Trouble;
+use super::grains::Attachment;
 use super::numbers::{absent, count, finite, needed, steps};
+use crate::output::names::{self, Made, Maker};
 use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
 use crate::scene::units::Units;
 
@@ -95,13 +96,16 @@ pub(super) fn records(
     free: bool,
     units: &Units,
 ) -> Result<Vec<Record>, Trouble> {
-    let mut names = HashSet::new();
-    let mut records = Vec::new();
+    let mut records: Vec<Record> = Vec::new();
     for (number, section) in sections.iter().enumerate() {
         let at = |key: &str| format!("records[{number}].{key}");
         check_name(&at("name"), &section.name)?;
-        if !names.insert(section.name.as_str()) {
-            let problem = "another record has this name already; each needs its own";
+        // Upper and lower case are the same to some file systems.
+        let same = |other: &Record| other.name.eq_ignore_ascii_case(&section.name);
+        if let Some(other) = records.iter().position(same) {
+            let problem = format!(
+                "records[{other}] has this name already (case does not count); each needs its own"
+            );
             return Err(Trouble::new(at("name"), problem, "give it another name"));
         }
         let rhythm = match (section.every, section.every_steps) {
@@ -179,13 +183,48 @@ fn what(
     })
 }
 
+/// Errors if two of the files that a run makes would be the same.
+pub(super) fn files_differ(
+    records: &[Record],
+    lists: &[Attachment],
+    compares: bool,
+) -> Result<(), Trouble> {
+    let made = names::all(records, lists, compares);
+    let Some([earlier, later]) = names::meeting(&made) else { return Ok(()) };
+    let owner = |made: &Made| match made.by {
+        Maker::Run => "every run makes one of that name".to_owned(),
+        Maker::Comparison => "the comparison with the exact solution has that name".to_owned(),
+        Maker::List(section) => format!("the copy of the list of grains[{section}] has that name"),
+        Maker::Record(number) => format!("records[{number}] makes one of that name"),
+    };
+    let key = match later.by {
+        Maker::Record(number) => format!("records[{number}].name"),
+        _ => "records".to_owned(),
+    };
+    let problem =
+        format!("it would make `{}` in the run's folder, but {}", later.name, owner(earlier));
+    Err(Trouble::new(key, problem, "give the record another name"))
+}
+
+/// Names that Windows keeps for devices, whatever comes after a dot.
+const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+
 fn check_name(key: &str, name: &str) -> Result<(), Trouble> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    if !name.is_empty() && name.len() <= 60 && name.chars().all(plain) {
-        return Ok(());
+    if name.is_empty() || name.len() > 60 || !name.chars().all(plain) {
+        let problem =
+            "a name has 1 to 60 letters (a to z), digits, `-` and `_`: it becomes a file's";
+        return Err(Trouble::new(key, problem, "for example \"box\" or \"profile_y\""));
     }
-    let problem = "a name has 1 to 60 letters (a to z), digits, `-` and `_`: it becomes a file's";
-    Err(Trouble::new(key, problem, "for example \"box\" or \"profile_y\""))
+    let lower = name.to_ascii_lowercase();
+    let numbered = ["com", "lpt"].iter().any(|port| {
+        lower.strip_prefix(port).is_some_and(|n| n.len() == 1 && n.as_bytes()[0].is_ascii_digit())
+    });
+    if DEVICES.contains(&lower.as_str()) || numbered {
+        let problem = "Windows keeps this name for a device: a file could not be called so there";
+        return Err(Trouble::new(key, problem, format!("for example \"{name}_1\"")));
+    }
+    Ok(())
 }
 
 /// The cell that contains a point.

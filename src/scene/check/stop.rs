@@ -54,17 +54,9 @@ pub(super) fn stop(
 
 fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble> {
     let SteadySection { record: name, column, tolerance } = section;
-    let wanted =
-        |record: &Record| columns(record).is_some() && matches!(record.rhythm, Rhythm::Every(_));
-    let number = records.iter().position(|record| record.name == *name && wanted(record));
-    let Some(record) = number else {
-        let names: Vec<_> = records.iter().filter(|r| wanted(r)).map(|r| &r.name).collect();
-        let problem = "there is no record of that name of kind `box`, `grain_means` or \
-                       `loads` with `every` or `every_steps`";
-        let remedy = match names.is_empty() {
-            true => "add such a record".to_owned(),
-            false => format!("such records are: {names:?}"),
-        };
+    let named = records.iter().position(|record| record.name == *name);
+    let Some(record) = named.filter(|&number| can_be_steady(&records[number])) else {
+        let (problem, remedy) = unfit(named.map(|number| &records[number]), records);
         return Err(Trouble::new("stop.steady.record", problem, remedy));
     };
     let columns = columns(&records[record]).unwrap_or_default();
@@ -82,6 +74,31 @@ fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble
         return Err(Trouble::new("stop.steady.tolerance", problem, "1e-6 is usual"));
     }
     Ok(Steady { record, column: number, tolerance: *tolerance })
+}
+
+fn can_be_steady(record: &Record) -> bool {
+    columns(record).is_some() && matches!(record.rhythm, Rhythm::Every(_))
+}
+
+/// Why the record that is named cannot become steady, and what to do.
+fn unfit(named: Option<&Record>, records: &[Record]) -> (String, String) {
+    let fit: Vec<_> = records.iter().filter(|r| can_be_steady(r)).map(|r| &r.name).collect();
+    let others = match fit.is_empty() {
+        true => "add one of kind `box`, `grain_means` or `loads` with `every_steps = 100`, say",
+        false => &format!("those that can become steady are: {fit:?}"),
+    };
+    let (problem, remedy) = match named {
+        None => ("there is no record of that name", others),
+        Some(record) if columns(record).is_none() => {
+            ("that record is not of kind `box`, `grain_means` or `loads`", others)
+        }
+        Some(_) => (
+            "that record is taken only once, at the end: steady is what no longer changes from row \
+             to row",
+            "add `every_steps = 100`, say, or `every` (s) to that record",
+        ),
+    };
+    (problem.to_owned(), remedy.to_owned())
 }
 
 impl Steady {

@@ -1,0 +1,87 @@
+//! The names of all that a run makes in its folder. They are known before it starts, and differ.
+
+use super::{folder, lock};
+use crate::checkpoint;
+use crate::scene::{Attachment, Record, What};
+
+/// What `psmrt run` says about itself.
+pub const FACTS: &str = "run.json";
+
+/// Table and picture of the comparison with an exact solution.
+pub const COMPARISON: [&str; 2] = ["comparison.csv", "comparison.svg"];
+
+/// What makes a file or folder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Maker {
+    /// Every run.
+    Run,
+    /// The `[[grains]]` section of this number: the copy of its list.
+    List(usize),
+    /// `[compare]`.
+    Comparison,
+    /// The record of this number.
+    Record(usize),
+}
+
+/// A file or folder that a run makes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Made {
+    /// Its name in the folder of the run.
+    pub name: String,
+    /// Whether it is a folder.
+    pub is_folder: bool,
+    /// What makes it.
+    pub by: Maker,
+}
+
+/// All files and folders that a run makes in its folder. What lies in the folder of a record is called after
+/// the step and cannot meet anything else; half-written files have names of their own.
+pub fn all(records: &[Record], lists: &[Attachment], compares: bool) -> Vec<Made> {
+    let file = |by: Maker, name: String| Made { name, is_folder: false, by };
+    let folder = |by: Maker, name: &str| Made { name: name.to_owned(), is_folder: true, by };
+    let run = [lock::NAME, folder::ID, folder::SCENE, FACTS];
+    let mut made: Vec<Made> = run.map(|name| file(Maker::Run, name.to_owned())).into();
+    made.push(folder(Maker::Run, checkpoint::FOLDER));
+    made.extend(lists.iter().map(|list| file(Maker::List(list.section), list.file_name())));
+    if compares {
+        made.extend(COMPARISON.map(|name| file(Maker::Comparison, name.to_owned())));
+    }
+    for (number, record) in records.iter().enumerate() {
+        let (by, name) = (Maker::Record(number), &record.name);
+        match record.what {
+            What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => {
+                made.push(file(by, table(name)));
+                made.push(file(by, picture(name)));
+            }
+            What::Fields { .. } | What::Grains => {
+                made.push(folder(by, name));
+                made.push(file(by, series(name)));
+            }
+            What::Slice { .. } => made.push(folder(by, name)),
+        }
+    }
+    made
+}
+
+/// The table of the record of that name.
+pub fn table(record: &str) -> String {
+    format!("{record}.csv")
+}
+
+/// The picture of the table of the record of that name.
+pub fn picture(record: &str) -> String {
+    format!("{record}.svg")
+}
+
+/// The list of the files of the record of that name and their times.
+pub fn series(record: &str) -> String {
+    format!("{record}.pvd")
+}
+
+/// Two that would be the same file, the later one second. Case does not count: on many systems it does not.
+pub fn meeting(made: &[Made]) -> Option<[&Made; 2]> {
+    made.iter().enumerate().find_map(|(number, later)| {
+        let same = |earlier: &&Made| earlier.name.eq_ignore_ascii_case(&later.name);
+        Some([made[..number].iter().find(same)?, later])
+    })
+}

@@ -1,0 +1,122 @@
+//! The first line of a list of grains: which column is what, in which unit.
+
+use super::list_text::{Fault, cells, is_number};
+use crate::quote::quoted;
+
+/// The first line of a list of grains; the last column may be absent.
+pub const COLUMNS: [&str; 5] = ["x (m)", "y (m)", "z (m)", "diameter (m)", "density (kg/m3)"];
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Column {
+    /// Place along an axis, m.
+    Place(usize),
+    Diameter,
+    Radius,
+    Density,
+}
+
+/// The first line as it should be.
+pub(super) fn wanted() -> String {
+    COLUMNS[..4].join(",")
+}
+
+/// The columns that a first line names, in any order.
+pub(super) fn columns(line: &str) -> Result<Vec<Column>, Fault> {
+    let names = cells(line);
+    separators(line, names.len())?;
+    if names.iter().all(|name| is_number(name)) {
+        let remedy = format!("put this line above them: {}", wanted());
+        return Err((
+            "it begins with numbers: the names of the columns are missing".into(),
+            remedy,
+        ));
+    }
+    let mut columns = Vec::new();
+    for (number, name) in names.iter().enumerate() {
+        let column = column(number, name)?;
+        if columns.contains(&column) {
+            let problem = format!("{} is there twice", quoted(name));
+            return Err((problem, "keep one of the columns".to_owned()));
+        }
+        columns.push(column);
+    }
+    let missing = (0..3).map(Column::Place).position(|place| !columns.contains(&place));
+    let missing = missing.map(|axis| COLUMNS[axis]);
+    let sizes = [Column::Diameter, Column::Radius].map(|size| columns.contains(&size));
+    match (missing, sizes) {
+        (Some(missing), _) => Err((
+            format!("there is no column \"{missing}\""),
+            format!("let the first line be {} and perhaps ,{}", wanted(), COLUMNS[4]),
+        )),
+        (None, [false, false]) => Err((
+            "there is no column \"diameter (m)\"".to_owned(),
+            "add it, or a column \"radius (m)\"".to_owned(),
+        )),
+        (None, [true, true]) => Err((
+            "there are columns for the diameter and for the radius".to_owned(),
+            "keep one of them".to_owned(),
+        )),
+        _ => Ok(columns),
+    }
+}
+
+/// Errors if the columns are separated by something else than commas.
+fn separators(line: &str, commas: usize) -> Result<(), Fault> {
+    let (name, command) = if line.matches(';').count() >= 3 {
+        ("semicolons", "sed 's/,/./g; s/;/,/g' old.csv > new.csv")
+    } else if line.matches('\t').count() >= 3 {
+        ("tabulators", "tr '\\t' ',' < old.csv > new.csv")
+    } else if commas == 1 && line.split_whitespace().count() >= 4 {
+        ("blanks", "write the file anew with commas, the first line too")
+    } else {
+        return Ok(());
+    };
+    let remedy = format!(
+        "separate them by commas, and write decimals with points (0.5, not 0,5): {command}"
+    );
+    Err((format!("its columns are separated by {name}"), remedy))
+}
+
+fn column(number: usize, cell: &str) -> Result<Column, Fault> {
+    let at = number + 1;
+    let (name, unit) = match cell.split_once(['(', '[']) {
+        Some((name, unit)) => (name, unit.trim_end().trim_end_matches([')', ']']).trim()),
+        None => (cell, ""),
+    };
+    let (column, proper) = match name.trim().to_lowercase().as_str() {
+        "x" => (Column::Place(0), COLUMNS[0]),
+        "y" => (Column::Place(1), COLUMNS[1]),
+        "z" => (Column::Place(2), COLUMNS[2]),
+        "diameter" | "d" => (Column::Diameter, COLUMNS[3]),
+        "radius" | "r" => (Column::Radius, "radius (m)"),
+        "density" | "rho" => (Column::Density, COLUMNS[4]),
+        "" => {
+            let problem = format!("column {at} has no name");
+            return Err((problem, "remove the empty column: commas at the end of lines".into()));
+        }
+        _ => {
+            let problem = format!("there is a column too many, {}, column {at}", quoted(cell));
+            let remedy = format!("keep {} and perhaps ,{}", wanted(), COLUMNS[4]);
+            return Err((problem, remedy));
+        }
+    };
+    let factor = match (column, unit) {
+        (Column::Density, "kg/m3" | "kg/m^3" | "kg/m³" | "kg m-3") => return Ok(column),
+        (Column::Density, "g/cm3" | "g/cm^3" | "g/cm³" | "g/cc") => Some("multiply it by 1000"),
+        (Column::Density, _) => None,
+        (_, "m") => return Ok(column),
+        (_, "mm") => Some("divide it by 1000"),
+        (_, "cm") => Some("divide it by 100"),
+        (_, "um" | "µm" | "μm" | "micron" | "microns") => Some("divide it by 1e6"),
+        _ => None,
+    };
+    let problem = format!("column {at} is {}, not \"{proper}\"", quoted(cell));
+    let remedy = match factor {
+        Some(factor) => format!("lists are in SI units: {factor} and call it \"{proper}\""),
+        None => {
+            format!("let the first line be {} and perhaps ,{}, in SI units", wanted(), COLUMNS[4])
+        }
+    };
+    Err((problem, remedy))
+}

@@ -1,0 +1,317 @@
+//! Free grains in the fluid: what is conserved, what stays at rest, how a grain starts to move.
+
+use crate::common;
+
+use common::Budget;
+use common::collisions::dhumieres;
+use common::random::Random;
+use psmrt_reference::coupling::{CoupledSolver, CouplingSettings, Gravity, InternalFluid};
+use psmrt_reference::domain::{Domain, Face, Faces};
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::law::ContactLaw;
+use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
+use psmrt_reference::lattice::{Vec3, viscosity};
+use psmrt_reference::setup::{Setup, SolidPhase};
+use std::f64::consts::PI;
+
+fn fluid(cells: [usize; 3], faces: Faces, tau: f64) -> Setup {
+    Setup::fluid(Domain::new(cells, faces).unwrap(), dhumieres(tau))
+        .with_solids(SolidPhase::default())
+}
+
+fn law() -> ContactLaw {
+    ContactLaw::from_duration_and_restitution(5.0, 0.5, 100.0).unwrap().with_friction(0.3).unwrap()
+}
+
+fn at_rest(_: Vec3) -> (f64, Vec3) {
+    (1.0, Vec3::zeros())
+}
+
+fn run(budget: &mut Budget, solver: &mut CoupledSolver, steps: u64) {
+    budget.spend(steps * solver.fluid().domain().cell_count() as u64);
+    solver.run(steps).unwrap_or_else(|stop| panic!("{stop}"));
+}
+
+#[test]
+fn momentum_of_fluid_and_grains_closes_to_round_off_in_a_periodic_box() {
+    let mut budget = Budget::oracle(1_000_000);
+    for internal_fluid in [InternalFluid::Kept, InternalFluid::Lagged] {
+        for average_loads in [false, true] {
+            let mut random = Random(1);
+            let grains: Vec<Grain> = (0..6)
+                .map(|i| {
+                    let place = Vec3::new(4.0 * f64::from(i % 3), 6.0 * f64::from(i / 3), 3.0);
+                    Grain::sphere(place + random.vector(0.4), random.between(1.4, 2.2), 1.5)
+                        .moving(random.vector(0.04))
+                        .spinning(random.vector(0.02))
+                })
+                .collect();
+            let sides = PeriodicBox::all([12.0, 12.0, 12.0]);
+            let settings = CouplingSettings { internal_fluid, average_loads, ..Default::default() };
+            let mut solver = CoupledSolver::new(
+                fluid([12; 3], Faces::PERIODIC, 0.7),
+                |_| (1.0, Vec3::new(0.01, 0.0, -0.01)),
+                GrainSetup { sides, ..GrainSetup::new(law()) },
+                grains,
+                Vec::new(),
+                settings,
+            )
+            .unwrap();
+            let (start, plain_start) = (solver.conserved_momentum(), solver.plain_momentum());
+            let (mut off, mut touched) = (0.0_f64, false);
+            for _ in 0..120 {
+                run(&mut budget, &mut solver, 1);
+                off = off.max((solver.conserved_momentum() - start).norm());
+                touched |=
+                    solver.grains().contact_loads().iter().any(|load| load.force.norm() > 0.0);
+            }
+            let plain = (solver.plain_momentum() - plain_start).norm();
+            println!(
+                "{internal_fluid:?}, averaged {average_loads}: Q off by {off:.1e}, plain sum {plain:.1e}"
+            );
+            assert!(touched, "the grains must collide, or contacts are not tested");
+            // Sums over 1,728 cells of populations that add up to 1,728, rounded at each of 120 steps.
+            assert!(off < 1e-11, "{off:e}");
+        }
+    }
+}
+
+#[test]
+fn neutrally_buoyant_grain_at_rest_stays_at_rest() {
+    let mut budget = Budget::oracle(600_000);
+    let gravity = Some(Gravity::Reduced { acceleration: Vec3::new(0.0, 0.0, -1e-4) });
+    let grain = Grain::sphere(Vec3::new(5.2, 4.9, 5.1), 2.3, 1.0);
+    let walls = [Face::wall(); 2];
+    let mut solver = CoupledSolver::new(
+        fluid([10; 3], Faces { x: walls, y: walls, z: walls }, 0.7),
+        at_rest,
+        GrainSetup::new(law()),
+        vec![grain],
+        Vec::new(),
+        CouplingSettings { gravity, ..Default::default() },
+    )
+    .unwrap();
+    run(&mut budget, &mut solver, 500);
+    let now = &solver.grains().grains()[0];
+    // Weight less buoyancy is zero: m_s and m_f are the same product. The loads round off by some
+    // 1e-15 of 51, the mass, and what they do is kept as a change of velocity from step to step, so
+    // that it is summed up twice: 500² 1e-15/51 = 5e-12 at most in velocity, 500 times that in place.
+    assert!(now.velocity.norm() < 5e-12, "{:e}", now.velocity.norm());
+    assert!((now.position - grain.position).norm() < 2.5e-9);
+}
+
+#[test]
+fn grain_at_rest_feels_its_buoyant_weight_to_round_off_at_any_density() {
+    let mut budget = Budget::oracle(100_000);
+    let g = Vec3::new(0.0, 0.0, -1e-4);
+    let walls = [Face::wall(); 2];
+    for density in [0.5, 1.0, 1.5, 2.65, 8.0] {
+        let mut grain = Grain::sphere(Vec3::new(5.2, 4.9, 5.1), 2.3, density);
+        grain.held = true;
+        let mut solver = CoupledSolver::new(
+            fluid([10; 3], Faces { x: walls, y: walls, z: walls }, 0.7),
+            at_rest,
+            GrainSetup::new(law()),
+            vec![grain],
+            Vec::new(),
+            CouplingSettings {
+                gravity: Some(Gravity::Reduced { acceleration: g }),
+                ..Default::default()
+            },
+        )
+        .unwrap();
+        run(&mut budget, &mut solver, 20);
+        let load = solver.outside_loads()[0];
+        let weight = (density - 1.0) * 4.0 / 3.0 * PI * 2.3_f64.powi(3) * g;
+        // The still fluid presses alike on all sides, to round-off of sums over 100 cells of
+        // populations below 0.4.
+        assert!((load.force - weight).norm() < 1e-14, "density {density}: {}", load.force);
+        assert!(load.torque.norm() < 1e-14);
+    }
+}
+
+/// A solution of the equation of Basset, Boussinesq and Oseen for a sphere of radius `a` and density
+/// ratio `ratio` that is let go in an unbounded fluid at rest, slow enough for Stokes' law:
+/// velocity over terminal velocity at the times `0, dt, 2 dt, ...`.
+///
+/// Source: Clift, Grace & Weber, Bubbles, Drops and Particles (1978), ch. 11.
+fn released_sphere(a: f64, ratio: f64, nu: f64, dt: f64, steps: usize) -> Vec<f64> {
+    // (ρ_s/ρ_f + 1/2) V dv/dt = 6 π ν a (v_t - v) - 6 a² √(π ν) ∫ (dv/dτ)/√(t - τ) dτ
+    // By steps: dv/dt constant in each, the integral of 1/√(t - τ) over each exact; implicit.
+    let volume = sphere_volume(a);
+    let inertia = (ratio + 0.5) * volume;
+    let drag = 6.0 * PI * nu * a;
+    let basset = 6.0 * a * a * (PI * nu).sqrt();
+    let (mut v, mut slopes) = (vec![0.0], Vec::new());
+    for n in 1..=steps {
+        let t = n as f64 * dt;
+        let history: f64 = slopes
+            .iter()
+            .enumerate()
+            .map(|(i, slope): (usize, &f64)| {
+                let (from, to) = (i as f64 * dt, (i + 1) as f64 * dt);
+                2.0 * slope * ((t - from).sqrt() - (t - to).sqrt())
+            })
+            .sum();
+        let last = v[n - 1];
+        let slope = (drag * (1.0 - last) - basset * history)
+            / (inertia + drag * dt + basset * 2.0 * dt.sqrt());
+        slopes.push(slope);
+        v.push(last + slope * dt);
+    }
+    v
+}
+
+/// Velocity of a released sphere over its Stokes velocity, step by step; a quarter of it stands for
+/// the whole. `explicit`: the inertia of the fluid inside taken off the grain's mass.
+fn release(
+    budget: &mut Budget,
+    ratio: f64,
+    internal_fluid: InternalFluid,
+    explicit: bool,
+    steps: u64,
+) -> Result<Vec<f64>, String> {
+    let (a, tau, half, height) = (4.0, 0.6, 20, 40);
+    let slip = [Face::FreeSlip; 2];
+    let faces = Faces { x: slip, y: slip, z: [Face::Periodic; 2] };
+    let v_t = 1e-4;
+    let nu = viscosity(tau);
+    let mut grain = Grain::sphere(Vec3::new(0.0, 0.0, 0.5 * height as f64), a, ratio);
+    // Near a ratio of 1 weight less buoyancy vanishes: the driving force is given by itself, as an
+    // acceleration of (m_s - m_f) that makes the Stokes velocity v_t.
+    let force = 6.0 * PI * nu * a * v_t;
+    let mass_difference = (ratio - 1.0) * sphere_volume(a);
+    let acceleration = Vec3::new(0.0, 0.0, force / mass_difference);
+    if explicit {
+        grain.mass -= sphere_volume(a);
+    }
+    let gravity = if explicit {
+        Gravity::OnFluidToo { acceleration }
+    } else {
+        Gravity::Reduced { acceleration }
+    };
+    let sides = PeriodicBox { lengths: [None, None, Some(height as f64)] };
+    let mut solver = CoupledSolver::new(
+        fluid([half, half, height], faces, tau),
+        at_rest,
+        GrainSetup { sides, ..GrainSetup::new(law()) },
+        vec![grain],
+        Vec::new(),
+        CouplingSettings { internal_fluid, gravity: Some(gravity), ..Default::default() },
+    )
+    .map_err(|error| error.to_string())?;
+    let mut velocities = vec![0.0];
+    for _ in 0..steps {
+        budget.spend((half * half * height) as u64);
+        solver.step().map_err(|stop| stop.to_string())?;
+        let v = solver.grains().grains()[0].velocity.z / v_t;
+        if v.is_nan() || v.abs() > 10.0 {
+            return Err(format!("blew up at step {}", velocities.len()));
+        }
+        velocities.push(v);
+    }
+    Ok(velocities)
+}
+
+#[test]
+fn released_sphere_starts_as_basset_boussinesq_and_oseen_say_if_the_internal_fluid_is_lagged() {
+    let mut budget = Budget::oracle(27_000_000);
+    const STEPS: u16 = 150;
+    for ratio in [1.01, 1.5, 2.65, 10.0] {
+        let exact = released_sphere(4.0, ratio, viscosity(0.6), 1.0, STEPS.into());
+        let mut worst = |internal_fluid, explicit| -> Result<f64, String> {
+            let v = release(&mut budget, ratio, internal_fluid, explicit, STEPS.into())?;
+            let off = v.iter().zip(&exact).skip(10).map(|(v, exact)| v - exact);
+            Ok(off.fold(0.0, |worst: f64, off| if off.abs() > worst.abs() { off } else { worst }))
+        };
+        let lagged = worst(InternalFluid::Lagged, false).unwrap();
+        let kept = worst(InternalFluid::Kept, false).unwrap();
+        let taken_off = worst(InternalFluid::Kept, true);
+        println!("ratio {ratio}: lagged {lagged:.4}, kept {kept:.4}, taken off {taken_off:?}");
+        // In units of the terminal velocity. At 8 cells per diameter and tau = 0.6 the drag of a lone
+        // sphere is about 3 % too small (golden/sphere_arrays/study.csv), and the images across the
+        // mirror planes, 10 radii away, slow it by less in this time: together below 2.5 %.
+        assert!(lagged.abs() < 0.025, "ratio {ratio}: {lagged}");
+        // With the fluid's inertia kept the sphere is too slow, and wrong by more.
+        assert!(kept < 0.0 && kept.abs() > 1.5 * lagged.abs(), "ratio {ratio}: {kept}, {lagged}");
+        // Taken off the mass at once it is as good where it lives, but near a ratio of 1 nothing is
+        // left that has inertia: at 1.5 it blows up after 28 steps, at 1.01 after two.
+        match taken_off {
+            Ok(taken_off) => assert!(ratio > 2.0 && (taken_off - lagged).abs() < 2e-3),
+            Err(reason) => assert!(ratio < 2.0 && reason.contains("blew up"), "{reason}"),
+        }
+    }
+}
+
+#[test]
+fn free_sphere_in_shear_turns_at_half_the_rate() {
+    let mut budget = Budget::oracle(2_400_000);
+    // Between walls that move in opposite directions; 6 cells per diameter, walls 4 diameters apart.
+    let (radius, width, height, tau) = (3.0, 18, 24, 0.6);
+    let rate = 0.1 * viscosity(tau) / (radius * radius);
+    let [middle, side] = [height, width].map(|cells| 0.5 * f64::from(cells));
+    let lid = |u| Face::Wall { velocity: Vec3::new(u, 0.0, 0.0) };
+    let faces = Faces { z: [lid(-rate * middle), lid(rate * middle)], ..Faces::PERIODIC };
+    let centre = Vec3::new(side, side, middle);
+    let sides = PeriodicBox { lengths: [Some(2.0 * side), Some(2.0 * side), None] };
+    let cells = [width, width, height].map(|cells| usize::try_from(cells).unwrap());
+    let mut solver = CoupledSolver::new(
+        fluid(cells, faces, tau),
+        |x| (1.0, Vec3::new(rate * (x.z - middle), 0.0, 0.0)),
+        GrainSetup { sides, ..GrainSetup::new(law()) },
+        vec![Grain::sphere(centre, radius, 1.0)],
+        Vec::new(),
+        CouplingSettings::default(),
+    )
+    .unwrap();
+    run(&mut budget, &mut solver, 300);
+    let grain = &solver.grains().grains()[0];
+    let turned = grain.spin / (0.5 * rate);
+    // What walls and images change is of the order of the solid fraction, 1.5 %, times the share of
+    // the shear that they see: well below 1 %, which is also what PS lags behind (7.5 nu/a² of the
+    // stress of a solid that does not turn with the fluid, here nearly none).
+    assert!((turned.y - 1.0).abs() < 0.01, "{turned}");
+    // By symmetry nothing else moves, to round-off of loads summed over 200 cells.
+    assert!(turned.x.abs() + turned.z.abs() < 1e-9 && (grain.position - centre).norm() < 1e-9);
+}
+
+/// Buoyancy of a held sphere of `d` cells over the weight of the fluid that it displaces, with the
+/// body force on the fluid; a quarter of a closed box stands for the whole.
+fn buoyancy_by_body_force(d: u16, tau: f64, budget: &mut Budget) -> f64 {
+    let g = Vec3::new(0.0, 0.0, -1e-5);
+    let side = [Face::FreeSlip, Face::wall()];
+    let [width, height] = [3 * d / 2, 3 * d].map(usize::from);
+    let faces = Faces { x: side, y: side, z: [Face::wall(); 2] };
+    let domain = Domain::new([width, width, height], faces).unwrap();
+    let setup = Setup::fluid(domain, dhumieres(tau)).with_solids(SolidPhase::default());
+    let mut grain = Grain::sphere(Vec3::new(0.0, 0.0, 1.5 * f64::from(d)), 0.5 * f64::from(d), 1.0);
+    grain.held = true;
+    let gravity = Some(Gravity::OnFluidToo { acceleration: g });
+    let mut solver = CoupledSolver::new(
+        setup.with_body_force(g),
+        at_rest,
+        GrainSetup::new(law()),
+        vec![grain],
+        Vec::new(),
+        CouplingSettings { gravity, ..Default::default() },
+    )
+    .unwrap();
+    // Until the spurious flow is steady: d²/ν.
+    let steps = (1_u32..).find(|&n| f64::from(n) >= f64::from(d * d) / viscosity(tau)).unwrap();
+    run(budget, &mut solver, steps.into());
+    let net = solver.outside_loads()[0].force.z;
+    (net - grain.mass * g.z) / (-grain.mass * g.z)
+}
+
+#[test]
+fn buoyancy_by_a_body_force_on_the_fluid_is_too_small_and_less_so_on_finer_grids() {
+    let mut budget = Budget::oracle(12_000_000);
+    let found = [4, 8, 12].map(|d| buoyancy_by_body_force(d, 1.0, &mut budget));
+    println!("buoyancy over the displaced weight at 4, 8 and 12 cells per diameter: {found:.4?}");
+    let lacking = found.map(|buoyancy| 1.0 - buoyancy);
+    // What is displaced is the sum of B, not the volume: cells cut by the surface, a layer about one
+    // cell thick, count less, so that what lacks falls as the first order of the cell size at least.
+    // (0.42, 0.20 and 0.12; 0.08 at 16 cells.) First order leaves 1/2 and 2/3; a tenth more is allowed.
+    assert!(lacking[0] > 0.1 && lacking[1] < 0.55 * lacking[0] && lacking[2] < 0.73 * lacking[1]);
+    assert!(lacking[2] > 0.0);
+}

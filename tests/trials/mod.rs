@@ -1,0 +1,56 @@
+//! Trials that need an adapter: listed as ignored, with the reason, where there is none, and failing
+//! there if `PSMRT_REQUIRE_GPU=1`. libtest hides what passing tests print, so these run under
+//! libtest-mimic (`harness = false`).
+
+#![allow(dead_code, reason = "each test binary is a crate of its own and uses a part of this")]
+
+use std::process::ExitCode;
+use std::sync::{Arc, OnceLock};
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use psmrt::kernel::{Gpu, Kernel, KernelError};
+
+use crate::common::Budget;
+
+/// The device of this process, opened once.
+pub fn gpu() -> Result<Arc<Gpu>, KernelError> {
+    static GPU: OnceLock<Result<Arc<Gpu>, KernelError>> = OnceLock::new();
+    GPU.get_or_init(|| Gpu::open(None)).clone()
+}
+
+/// A trial by its claim.
+pub type Claim = (&'static str, fn());
+
+/// Runs the trials.
+pub fn run(claims: &[Claim]) -> ExitCode {
+    let mut arguments = Arguments::from_args();
+    // A software adapter uses all cores by itself, and a shared one is shared by all trials.
+    arguments.test_threads.get_or_insert(1);
+    let required = std::env::var("PSMRT_REQUIRE_GPU").is_ok_and(|value| value == "1");
+    let device = if arguments.list { Ok(()) } else { gpu().map(|_| ()) };
+    let trials = claims
+        .iter()
+        .map(|&(name, claim)| match &device {
+            Ok(()) => Trial::test(name, move || {
+                claim();
+                Ok(())
+            }),
+            Err(error) if required => {
+                let reason = format!("PSMRT_REQUIRE_GPU=1, but {error}");
+                Trial::test(name, move || Err(Failed::from(reason)))
+            }
+            Err(_) => Trial::test(name, || Ok(()))
+                .with_kind("NOT RUN: no adapter")
+                .with_ignored_flag(true),
+        })
+        .collect();
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+impl Budget {
+    /// Makes `steps` steps on the device.
+    pub fn advance(&mut self, kernel: &mut Kernel, steps: u64) {
+        self.spend(steps * kernel.setup().domain.cell_count() as u64);
+        kernel.advance(steps, true).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
