@@ -4,6 +4,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `numbers.rs` | the derived numbers |
+//! | `disk.rs` | how much it will write |
 //! | `models.rs` | which models are on, each with the reason |
 //! | `grains.rs` | both for free grains, and what their warnings rest on |
 //! | `spheres.rs` | the spheres of a scene, and how much of each the box holds |
@@ -12,6 +13,7 @@
 //! | `warnings.rs`, `warnings/` | what looks risky, one topic a file |
 
 pub(crate) mod bed;
+pub mod disk;
 pub(crate) mod grains;
 mod models;
 mod numbers;
