@@ -11,6 +11,7 @@
 //! | `warnings.rs`, `warnings/` | what looks risky, one topic a file |
 
 mod grains;
+pub mod memory;
 mod models;
 mod numbers;
 mod speed;

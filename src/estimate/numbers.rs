@@ -3,8 +3,7 @@
 use psmrt_reference::domain::Face;
 use psmrt_reference::solids::Shape;
 
-use super::{Number, diameters, grains, number, si_velocity};
-use crate::scene::check::domain::BYTES_PER_CELL;
+use super::{Number, diameters, grains, memory, number, si_velocity};
 use crate::scene::{EngineKind, Scene};
 
 /// The length for the Reynolds number, m, and what it is.
@@ -63,13 +62,13 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
         numbers.push(number("solid fraction", volume / count as f64, "", "grains over box"));
     }
     numbers.extend(grains::numbers(scene));
-    // Two copies of 19 populations of 4 bytes on a device.
-    let (engine, bytes) = match scene.engine {
-        EngineKind::Wgpu => ("wgpu", 2 * 19 * 4),
-        EngineKind::Reference | EngineKind::Auto => ("reference", BYTES_PER_CELL),
+    let engine = match scene.engine {
+        EngineKind::Wgpu => "wgpu",
+        EngineKind::Reference | EngineKind::Auto => "reference",
     };
-    let memory = (count as u64 * bytes) as f64 / f64::from(1 << 20);
-    numbers.push(number("memory", memory, "MiB", format!("populations, engine {engine}")));
+    let parts: Vec<_> = memory::parts(scene).iter().map(|part| part.what).collect();
+    let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
+    numbers.push(number("memory", mib, "MiB", format!("{}; engine {engine}", parts.join(", "))));
     let (steps, si_time) = (scene.stop.steps as f64, scene.stop.steps as f64 * units.si_dt);
     numbers.push(number("steps", steps, "", format!("at most; {si_time:.4e} s")));
     numbers
