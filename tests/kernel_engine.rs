@@ -105,6 +105,49 @@ fn free_grains_move_as_in_the_oracle() {
     }
 }
 
+/// Half of a grain that spins in fluid at rest; 8 cells across, in a box of three diameters.
+const SPINNING: &str = r#"
+[domain]
+cells = [24, 24, 12]
+dx = 1e-5
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.6
+[faces]
+z_low.kind = "free_slip"
+z_high.kind = "free_slip"
+[[grains]]
+kind = "sphere"
+centre = [12e-5, 12e-5, 0.0]
+diameter = 8e-5
+density = 2650.0
+motion = "free"
+spin = [0.0, 0.0, 30.0]
+[stop]
+steps = 144
+"#;
+
+fn grain_that_starts_spinning_slows_down_as_the_exact_curve_says() {
+    let mut budget = Budget::kernel(1_000_000);
+    let scene = scene(SPINNING, &[]);
+    let mut kernel = kernel_engine(&scene);
+    let spin = |kernel: &KernelEngine| kernel.solids()[0].spin.z;
+    let start = spin(&kernel);
+    // T = 0.1, 0.2 and 0.3: 48 steps each, since ν = 1/30 and a = 4.
+    let rows = common::golden_rows("free_start/exact.csv");
+    for time in ["0.1", "0.2", "0.3"] {
+        budget.spend(48 * scene.setup.domain.cell_count() as u64);
+        kernel.step(48).unwrap();
+        let row = rows.iter().find(|row| &row[0] == "2.65" && &row[1] == time).unwrap();
+        let (found, exact) = (spin(&kernel) / start, row[2].parse::<f64>().unwrap());
+        println!("T = {time}: spin over its start {found:.4}, exact {exact:.4}");
+        // As in tests/oracle/free_start.rs.
+        assert!((found - exact).abs() < 0.015, "T = {time}: {found:.4} of the spin, exact {exact}");
+    }
+}
+
 /// Cells of the largest golden scene that is tried here; the paper's own sizes are runs by command.
 const LARGEST: usize = 70_000;
 
@@ -287,6 +330,10 @@ fn main() -> ExitCode {
             box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available,
         ),
         ("free_grains_move_as_in_the_oracle", free_grains_move_as_in_the_oracle),
+        (
+            "grain_that_starts_spinning_slows_down_as_the_exact_curve_says",
+            grain_that_starts_spinning_slows_down_as_the_exact_curve_says,
+        ),
         (
             "every_golden_scene_starts_and_steps_alike_on_both_engines",
             every_golden_scene_starts_and_steps_alike_on_both_engines,

@@ -14,7 +14,7 @@ const GRAIN: &str = "3e-4,2.5e-4,2.5e-4,2e-4\n";
 /// A folder with the scene of wrong scenes, its first grain from a list.
 fn folder(name: &str) -> Folder {
     let sphere = "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4";
-    let good = include_str!("cli/good.toml");
+    let good = include_str!("bad_scenes/good.toml");
     assert!(good.contains(sphere));
     let folder = Folder::new(name);
     folder.write("scene.toml", good.replace(sphere, "kind = \"csv\"\nfile = \"grains.csv\""));

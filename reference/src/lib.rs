@@ -13,6 +13,7 @@
 //! | Eqs. 4, 6 | PS-SRT, PS-MRT: fluid and solid part of a cell | [`cell_collision`] |
 //! | Eq. 5, `B` | the solid's collision and its weight, force on the solid | [`partial_saturation`] |
 //! | `epsilon` | solid fraction of a sphere in a cell | [`coverage`] |
+//! | | how the fluid starts | [`start`] |
 //! | | order of operations in a step | [`solver`] |
 //! | section 4, contact | Voigt, Coulomb, motion, packing (DEM) | [`grains`] |
 //! | section 4, fluid on grains | free grains in the fluid | [`coupling`] |
@@ -43,4 +44,5 @@ pub mod rates;
 pub mod setup;
 pub mod solids;
 pub mod solver;
+pub mod start;
 pub mod streaming;

@@ -78,6 +78,11 @@ impl Solid {
         self.velocity + self.spin.cross(arm)
     }
 
+    /// Whether it moves or spins.
+    pub fn has_velocity(&self) -> bool {
+        self.velocity != Vec3::zeros() || self.spin != Vec3::zeros()
+    }
+
     /// Whether the solid's cells change from step to step.
     pub fn moves(&self) -> bool {
         matches!(self.shape, Shape::Sphere { .. }) && self.velocity != Vec3::zeros()

@@ -3,14 +3,15 @@
 use crate::cell_collision::{CellCollision, Impulse};
 use crate::collision::CollisionOperator;
 use crate::coverage::Coverage;
+use crate::directions::Q;
 use crate::domain::Domain;
-use crate::equilibrium::equilibrium;
 use crate::forcing::forced_velocity;
 use crate::guard::{Evidence, Guard, Stopped};
 use crate::lattice::{Populations, Vec3, density, momentum};
 use crate::planes::map_planes;
 use crate::setup::{Setup, SetupError};
 use crate::solids::{Load, Solid};
+use crate::start::fill;
 use crate::streaming::stream;
 
 /// What a solver carries from step to step besides its set-up and its populations.
@@ -44,20 +45,35 @@ impl Solver {
     }
 
     /// A fluid whose density and velocity at each cell centre are `state(centre)`, with the
-    /// populations in equilibrium. Errors if the set-up cannot be run.
+    /// populations in equilibrium; if a solid moves, all cells that solids cover start with their
+    /// solid (`start.rs`). Errors if the set-up cannot be run.
     pub fn starting_from(
         setup: Setup,
         state: impl Fn(Vec3) -> (f64, Vec3),
     ) -> Result<Self, SetupError> {
-        let f = (0..setup.domain.cell_count())
-            .map(|cell| {
-                let (rho, u) = state(setup.domain.centre(setup.domain.coordinates(cell)));
-                // With a body force the momentum before a collision is half a step behind.
-                let u = u - setup.body_force.unwrap_or_else(Vec3::zeros) * (0.5 / rho);
-                equilibrium(rho, &u)
-            })
-            .collect();
-        Self::from_populations(setup, f)
+        let any_moves = setup.solid_phase.iter().any(|p| p.solids.iter().any(Solid::has_velocity));
+        Self::started(setup, state, any_moves)
+    }
+
+    /// The same with solids that are free to move: the cells that they cover start with them, also
+    /// if all are at rest. Errors if the set-up cannot be run.
+    pub fn starting_with_free_solids(
+        setup: Setup,
+        state: impl Fn(Vec3) -> (f64, Vec3),
+    ) -> Result<Self, SetupError> {
+        Self::started(setup, state, true)
+    }
+
+    fn started(
+        setup: Setup,
+        state: impl Fn(Vec3) -> (f64, Vec3),
+        covered_move: bool,
+    ) -> Result<Self, SetupError> {
+        let empty = vec![[0.0; Q]; setup.domain.cell_count()];
+        let mut solver = Self::from_populations(setup, empty)?;
+        let Solver { setup, coverage, f, .. } = &mut solver;
+        fill(f, setup, coverage.as_ref().filter(|_| covered_move), state);
+        Ok(solver)
     }
 
     /// A fluid with the given populations, one set per cell. Errors if the set-up cannot be run.

@@ -17,6 +17,7 @@ use crate::kernel::adapters;
 use crate::plan::facts::{Facts, Limit};
 use crate::plan::options::{FASTEST, Speed, Way, as_it_is, cheapest, most_accurate, ways};
 use crate::plan::write::text;
+use crate::quote;
 use crate::scene::{EngineKind, Scene};
 use crate::tradeoff::cost::mrt_over_srt;
 use crate::tradeoff::evidence::{committed_sweep, grain_points, wall_points};
@@ -51,16 +52,23 @@ impl std::str::FromStr for Wanted {
             Some(number) => (number.trim_end(), true),
             None => (text.trim(), false),
         };
-        let value: f64 =
-            number.parse().map_err(|_| format!("{text:?} is no number: write it as 5% or 0.05"))?;
+        let value: f64 = number
+            .parse()
+            .map_err(|_| format!("{} is no number: write it as 5% or 0.05", quote::quoted(text)))?;
         let value = if percent { value / 100.0 } else { value };
         match value {
             value if value > 0.0 && value < 1.0 => Ok(Wanted(value)),
-            value if value >= 1.0 && !percent => Err(format!(
-                "{text} would be {} %: write {text}% or a fraction like 0.05",
-                100.0 * value
+            value if (1.0..100.0).contains(&value) && !percent => {
+                let text = quote::shown(text.trim());
+                Err(format!(
+                    "{text} would be {} %: if you mean {text} %, write {text}%",
+                    100.0 * value
+                ))
+            }
+            _ => Err(format!(
+                "{}: it must lie between 0 and 100 % (exclusive): write 5% or 0.05",
+                quote::shown(text)
             )),
-            _ => Err(format!("{text}: it must lie between 0 and 100 % (exclusive)")),
         }
     }
 }

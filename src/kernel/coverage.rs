@@ -125,6 +125,27 @@ impl Coverage {
         }
     }
 
+    /// The covered cells with the sum of their solid fractions and `Σ ε_s u_s`, the velocity of each solid
+    /// there taken as often as it fills the cell.
+    pub(super) fn motions(&self, phase: &SolidPhase) -> Vec<(u32, f64, Vec3)> {
+        let mut parts = Vec::new();
+        for (cover, solid) in self.covers.iter().zip(&phase.solids) {
+            for Touch { cell, epsilon, arm } in &cover.touches {
+                // u_s = U + ω × r
+                let velocity = solid.velocity + solid.spin.cross(arm);
+                parts.push((*cell, *epsilon, *epsilon * velocity));
+            }
+        }
+        parts.sort_by_key(|&(cell, ..)| cell);
+        let whole = |parts: &[(u32, f64, Vec3)]| {
+            let sums = parts.iter().fold((0.0, Vec3::zeros()), |(epsilon, motion), part| {
+                (epsilon + part.1, motion + part.2)
+            });
+            (parts[0].0, sums.0, sums.1)
+        };
+        parts.chunk_by(|a, b| a.0 == b.0).map(whole).collect()
+    }
+
     /// The cells that solids cover.
     pub(super) fn cells(&self) -> &[u32] {
         &self.cells

@@ -187,20 +187,28 @@ impl Kernel {
         self.start(|a| f.iter().map(|f| single(f[a] - weight(a))).collect())
     }
 
-    /// Starts again from the equilibrium at density 1 and `velocity` everywhere.
+    /// Starts again from the equilibrium at density 1 and `velocity`; see [`Self::set_state`].
     pub fn set_velocity(&mut self, velocity: Vec3) -> Result<(), KernelError> {
         self.set_state(|_| (1.0, velocity))
     }
 
     /// Starts again from the equilibrium at the density and velocity `state(centre)` at each cell centre.
+    /// What solids that may move cover of a cell starts with them.
     pub fn set_state(&mut self, state: impl Fn(Vec3) -> (f64, Vec3)) -> Result<(), KernelError> {
         let domain = &self.setup.domain;
         let half_force = 0.5 * self.setup.body_force.unwrap_or_else(Vec3::zeros);
-        let states: Vec<(f64, Vec3)> = (0..domain.cell_count())
+        let mut states: Vec<(f64, Vec3)> = (0..domain.cell_count())
             .map(|cell| state(domain.centre(domain.coordinates(cell))))
             // With a body force the momentum before a collision is half a step behind.
             .map(|(rho, u)| (rho, u - half_force / rho))
             .collect();
+        if let (Some(solids), Some(phase)) = (&self.solids, &self.setup.solid_phase) {
+            for (cell, epsilon, motion) in solids.motions(domain, phase) {
+                let u = &mut states[cell as usize].1;
+                // By volume; where solids overlap they share the cell.
+                *u = (1.0 - epsilon.min(1.0)) * *u + motion / epsilon.max(1.0);
+            }
+        }
         self.start(|a| {
             let c = Vec3::from(psmrt_reference::directions::C[a].map(f64::from));
             let row = states.iter().map(|(rho, u)| {

@@ -3,6 +3,7 @@
 use std::cell::{Ref, RefCell};
 
 use psmrt_reference::domain::Domain;
+use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::SolidPhase;
 use wgpu::TextureFormat;
 
@@ -128,6 +129,14 @@ impl Solids {
             self.coverage.borrow_mut().update(domain, phase);
         }
         self.coverage.borrow()
+    }
+
+    /// The covered cells, how much of them is solid, and `Σ ε_s u_s`, where solids may move.
+    pub(super) fn motions(&self, domain: &Domain, phase: &SolidPhase) -> Vec<(u32, f64, Vec3)> {
+        match self.kept {
+            Kept::Movable(_) => self.coverage(domain, phase).motions(phase),
+            Kept::Fixed(_) => Vec::new(),
+        }
     }
 
     /// The number of the binding of a table, and the table.

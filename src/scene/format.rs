@@ -213,6 +213,7 @@ pub struct BodyForceSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialSection {
-    /// Velocity of the fluid everywhere, m/s.
+    /// Velocity of the fluid everywhere, m/s; if a grain is free or prescribed, outside the grains only:
+    /// what grains cover starts with them.
     pub velocity: Triple,
 }

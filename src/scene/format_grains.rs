@@ -47,7 +47,10 @@ pub struct GrainsSection {
     pub motion: Motion,
     /// With `free`: density of the grains, kg/m3; not where a `csv` file has a column for it.
     pub density: Option<f64>,
-    /// With `prescribed`: velocity, m/s; with `free` that at the start.
+    /// With `prescribed`: velocity, m/s; with `free` that at the start. The fluid that a grain covers
+    /// starts with the grain, that outside with `initial.velocity`; what has to give way takes its share
+    /// within a few steps, by sound: alone, a free grain of r times the fluid's density keeps
+    /// r/(r + 1/2) of its velocity against the fluid's (tests/oracle/free_start.rs).
     pub velocity: Option<Triple>,
     /// With `prescribed`: angular velocity, rad/s; with `free` that at the start.
     pub spin: Option<Triple>,

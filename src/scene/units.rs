@@ -65,6 +65,22 @@ impl Units {
         self.si_mass() / self.si_dt
     }
 
+    /// All of them, SI units.
+    pub fn si_all(&self) -> [f64; 10] {
+        [
+            self.si_velocity(),
+            self.si_acceleration(),
+            self.si_viscosity(),
+            self.si_spin(),
+            self.si_pressure(),
+            self.si_force(),
+            self.si_torque(),
+            self.si_mass(),
+            self.si_stiffness(),
+            self.si_damping(),
+        ]
+    }
+
     /// Lattice density at a pressure (Pa) above that of density 1.
     pub fn density_at(&self, si_pressure: f64) -> f64 {
         // p = c_s² ρ

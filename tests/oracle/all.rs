@@ -16,6 +16,7 @@ mod coverage;
 mod coverage_sampling;
 mod duct;
 mod errata;
+mod free_start;
 mod grains_conservation;
 mod grains_contact;
 mod grains_lubrication;

@@ -52,7 +52,7 @@ fn going_on_from_a_saved_state_gives_the_bits_of_the_run_that_was_never_stopped(
                 budget.spend(steps * solver.fluid().domain().cell_count() as u64);
                 solver.run(steps).unwrap();
             };
-            run(&mut budget, &mut whole, 30);
+            run(&mut budget, &mut whole, 50);
             let fluid = whole.fluid();
             let saved = (fluid.setup().clone(), fluid.populations().to_vec(), fluid.memory());
             let grains = (*whole.grains().setup(), whole.grains().state());

@@ -14,6 +14,10 @@
 //! left that has inertia; giving back nothing is stable and has the right terminal velocity after the
 //! wrong start. `tests/oracle/coupling.rs` measures all three.
 //!
+//! The populations of the cells that a grain covers start with the grain's motion (`start.rs`): else
+//! the grain would pay for setting `m_f` in motion, which [`InternalFluid::Lagged`] gives back only
+//! for changes of its velocity from then on.
+//!
 //! **What is conserved.** Without gravity, in a periodic box, to round-off:
 //!
 //! ```text
@@ -23,7 +27,8 @@
 //! with `Σ j` the momentum in all populations, that inside the grains included, `v_n` and `v_(n-1)`
 //! the velocities now and a step ago, and `F_(n-1)` the last load, of which half has not arrived yet
 //! ([`CoupledSolver::conserved_momentum`]). Without [`InternalFluid::Lagged`] the term with `m_f` is
-//! absent, without averaging that with `F`.
+//! absent, without averaging that with `F`. At the start, with the fluid at rest, `Q` is the momentum of
+//! the grains alone, `Σ_s m_s v_0`.
 
 mod free_grains;
 
@@ -73,7 +78,8 @@ pub struct CoupledSolver {
 }
 
 impl CoupledSolver {
-    /// Fluid at density and velocity `state` at each cell centre, and grains. The fluid's set-up must
+    /// Fluid at density and velocity `state` at each cell centre, and grains; the fluid that a grain
+    /// covers starts with the grain. The fluid's set-up must
     /// have a solid phase without solids; the grains' must not have gravity, which is in `settings`.
     /// Errors if any part cannot be run.
     pub fn new(
@@ -85,7 +91,7 @@ impl CoupledSolver {
         settings: CouplingSettings,
     ) -> Result<Self, CouplingError> {
         let grains = FreeGrains::new(&fluid.domain, grain_setup, grains, planes, settings)?;
-        let fluid = Solver::starting_from(with_grains(fluid, &grains)?, state)?;
+        let fluid = Solver::starting_with_free_solids(with_grains(fluid, &grains)?, state)?;
         Ok(CoupledSolver { fluid, grains })
     }
 

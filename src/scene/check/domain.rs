@@ -1,7 +1,7 @@
 //! The box: how many cells it has.
 
 use super::Trouble;
-use super::numbers::positive;
+use super::numbers::{beyond, positive, sane};
 use crate::scene::format::DomainSection;
 
 /// How far a length may be from a whole number of cells, in cells.
@@ -10,6 +10,7 @@ const WHOLE: f64 = 1e-6;
 /// Cells along x, y, z.
 pub(super) fn cells(section: &DomainSection) -> Result<[usize; 3], Trouble> {
     positive("domain.dx", section.dx, "m, the edge of a cell")?;
+    sane("domain.dx", section.dx, 1e-12..=1e6, "m")?;
     let cells = match (&section.size, &section.cells) {
         (Some(size), None) => whole_cells(*size, section.dx)?,
         (None, Some(cells)) => given_cells(*cells)?,
@@ -27,18 +28,26 @@ pub(super) fn cells(section: &DomainSection) -> Result<[usize; 3], Trouble> {
 }
 
 fn whole_cells(si_size: [f64; 3], si_dx: f64) -> Result<[usize; 3], Trouble> {
+    for si_length in si_size {
+        positive("domain.size", si_length, "m, each of the three lengths")?;
+    }
+    let near = si_size.map(|si_length| (si_length / si_dx).round().max(1.0));
     let mut cells = [0; 3];
     for axis in 0..3 {
-        positive("domain.size", si_size[axis], "m, each of the three lengths")?;
         let length = si_size[axis] / si_dx;
-        let whole = length.round();
-        if whole < 1.0 || (length - whole).abs() > WHOLE * whole.max(1.0) {
+        let whole = near[axis];
+        let is_whole = (length - whole).abs() <= WHOLE * whole;
+        if length.is_finite() && !is_whole {
             let problem = format!(
-                "along {} it is {length:.4} cells of {si_dx} m; it must be a whole number",
-                ["x", "y", "z"][axis]
+                "along {} it is {} cells of {si_dx:e} m; it must be a whole number",
+                ["x", "y", "z"][axis],
+                beyond(length, whole)
             );
-            let next = whole.max(1.0);
-            let remedy = format!("take {:e} m there ({next} cells), or another dx", next * si_dx);
+            let [x, y, z] = near.map(|cells| tidy(cells * si_dx));
+            let [nx, ny, nz] = near;
+            let remedy = format!(
+                "write `size = [{x:e}, {y:e}, {z:e}]` ({nx} x {ny} x {nz} cells), or take another dx"
+            );
             return Err(Trouble::new("domain.size", problem, remedy));
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
@@ -46,6 +55,11 @@ fn whole_cells(si_size: [f64; 3], si_dx: f64) -> Result<[usize; 3], Trouble> {
         cells[axis] = whole;
     }
     Ok(cells)
+}
+
+/// The number with as few digits as tell it to the twelfth.
+fn tidy(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 fn given_cells(given: [i64; 3]) -> Result<[usize; 3], Trouble> {

@@ -3,7 +3,7 @@
 use psmrt_reference::domain::{DomainError, FACE_NAMES, Face, Faces};
 use psmrt_reference::lattice::Vec3;
 
-use super::numbers::{absent, finite, needed};
+use super::numbers::{absent, beyond, finite, needed, shorter_step};
 use super::{Trouble, velocity};
 use crate::scene::format::{FaceKind, FaceSection, FacesSection};
 use crate::scene::units::Units;
@@ -75,10 +75,12 @@ fn density(key: &str, si_pressure: f64, units: &Units) -> Result<f64, Trouble> {
     }
     let limit = units.si_gauge_pressure(1.0 + MAX_DENSITY_CHANGE);
     let problem = format!(
-        "it changes the density by {:.3} of itself; -{limit:.3e} to {limit:.3e} Pa are allowed",
-        density - 1.0
+        "it changes the density by {} of itself; -{limit:.3e} to {limit:.3e} Pa are allowed",
+        beyond(density - 1.0, (density - 1.0).signum() * MAX_DENSITY_CHANGE)
     );
-    let remedy = "use a smaller pressure difference or a shorter time step";
+    // The unit of pressure goes with the inverse square of the time step.
+    let factor = (0.5 * MAX_DENSITY_CHANGE / (density - 1.0).abs()).sqrt();
+    let remedy = shorter_step(units, factor) + ", or use a smaller pressure difference";
     Err(Trouble::new(key, problem, remedy))
 }
 

@@ -11,8 +11,7 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 
 use super::contact::{Laws, laws, mirror, substeps};
 use super::grains::{GrainList, Listed};
-use super::numbers::finite;
-use super::{MAX_SPEED, Trouble, mirrors};
+use super::{Trouble, mirrors};
 use crate::scene::format::SceneFile;
 use crate::scene::format_free::{GravityForm, GravitySection, InternalFluidName};
 use crate::scene::format_grains::Motion;
@@ -118,16 +117,7 @@ fn no_free_grains(file: &SceneFile) -> Result<(), Trouble> {
 
 /// Gravity in lattice units.
 fn gravity(section: &GravitySection, units: &Units) -> Result<Gravity, Trouble> {
-    let key = "gravity.acceleration";
-    finite(key, &section.acceleration, "m/s2")?;
-    let acceleration = Units::to_lattice(section.acceleration, units.si_acceleration());
-    if acceleration.norm() > MAX_SPEED {
-        let problem = format!(
-            "it gains {:.3e} cells per time step in each step; at most {MAX_SPEED} is allowed",
-            acceleration.norm()
-        );
-        return Err(Trouble::new(key, problem, "use a shorter time step"));
-    }
+    let acceleration = super::acceleration("gravity.acceleration", section.acceleration, units)?;
     Ok(match section.form {
         GravityForm::Reduced => Gravity::Reduced { acceleration },
         GravityForm::BodyForce => Gravity::OnFluidToo { acceleration },

@@ -6,7 +6,7 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
-use super::numbers::{absent, finite, needed, positive};
+use super::numbers::{absent, beyond, finite, needed, positive, shorter_step};
 use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
 use crate::scene::format_grains::{GrainsSection, Motion};
 use crate::scene::units::Units;
@@ -126,7 +126,7 @@ impl GrainList {
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
                 let (key, motion) = (grain_kinds::place_key(section, &at), section.motion);
                 check_size(&grain_kinds::size_key(section, &at), radius, units).map_err(on_line)?;
-                check_speed(&at("spin"), &velocity, &spin, radius).map_err(on_line)?;
+                check_speed(&at("spin"), &velocity, &spin, radius, units).map_err(on_line)?;
                 neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
                 let line = ball.line;
                 list.grains.push(Listed {
@@ -230,17 +230,25 @@ pub(super) fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Tr
         2.0 * radius * units.si_dx,
         2.0 * radius
     );
-    let remedy = format!("use `domain.dx` = {:.3e} m or less", radius * units.si_dx / 4.0);
+    let remedy = format!("use `domain.dx = {:.3e}` (m) or less", radius * units.si_dx / 4.0);
     Err(Trouble::new(key, problem, remedy))
 }
 
-fn check_speed(key: &str, velocity: &Vec3, spin: &Vec3, radius: f64) -> Result<(), Trouble> {
+fn check_speed(
+    key: &str,
+    velocity: &Vec3,
+    spin: &Vec3,
+    radius: f64,
+    units: &Units,
+) -> Result<(), Trouble> {
     let speed = velocity.norm() + spin.norm() * radius;
     if speed <= MAX_SPEED {
         return Ok(());
     }
     let problem = format!(
-        "the surface moves at {speed:.3} cells per time step; at most {MAX_SPEED} is allowed"
+        "the surface moves at {} cells per time step; at most {MAX_SPEED} is allowed",
+        beyond(speed, MAX_SPEED)
     );
-    Err(Trouble::new(key, problem, "use a slower spin or a shorter time step"))
+    let remedy = shorter_step(units, 0.5 * MAX_SPEED / speed) + ", or use a slower spin";
+    Err(Trouble::new(key, problem, remedy))
 }

@@ -31,10 +31,11 @@ pub(super) fn centred(
             let plane = if side == 0 { 0.0 } else { domain.cells()[axis] as f64 };
             for listed in list.grains.iter_mut().filter(|listed| listed.motion == Motion::Free) {
                 let distance = (listed.centre[axis] - plane).abs();
+                let is_clear = listed.radius - distance <= MAX_OVERLAP * listed.radius;
                 if distance <= ON_PLANE {
                     listed.centre[axis] = plane;
                     found[axis][side] = true;
-                } else if listed.radius - distance > MAX_OVERLAP * listed.radius {
+                } else if !is_clear {
                     let problem = format!(
                         "a free grain overlaps its own image at the mirror plane {} = {:.4e} m",
                         ["x", "y", "z"][axis],
@@ -70,7 +71,8 @@ fn alone(
         return Err(Trouble::new("gravity.acceleration", problem, remedy));
     }
     for listed in &list.grains {
-        if (listed.centre[axis] - plane).abs() > ON_PLANE {
+        let is_on_it = (listed.centre[axis] - plane).abs() <= ON_PLANE;
+        if !is_on_it {
             let problem = format!(
                 "another grain's centre lies on a mirror plane across {name}, this one's does not: \
                  if they touched, the mirror image of the contact would be missing"

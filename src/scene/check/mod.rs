@@ -29,13 +29,13 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SetupError};
 
-use super::format::{BodyForceSection, SceneFile};
+use super::format::SceneFile;
 use super::format_run::ExactName;
 use super::units::Units;
 use super::{Scene, Trouble};
 use crate::exact::PlanePoiseuille;
 use grains::GrainList;
-use numbers::{finite, positive};
+use numbers::{beyond, finite, positive, sane, shorter_step};
 
 /// Largest speed in lattice units that a scene may set: a Mach number of 0.35, beyond which the
 /// error of compressibility is above a tenth.
@@ -45,14 +45,21 @@ pub const MAX_SPEED: f64 = 0.2;
 pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     let cells = domain::cells(&file.domain)?;
     positive("fluid.density", file.fluid.density, "kg/m3, for example 1000")?;
-    positive("fluid.kinematic_viscosity", file.fluid.kinematic_viscosity, "m2/s, water has 1e-6")?;
+    sane("fluid.density", file.fluid.density, 1e-6..=1e9, "kg/m3")?;
+    let key = "fluid.kinematic_viscosity";
+    positive(key, file.fluid.kinematic_viscosity, "m2/s, water has 1e-6")?;
+    sane(key, file.fluid.kinematic_viscosity, 1e-15..=1e15, "m2/s")?;
     let (units, tau) = time::units_and_tau(&file.time, &file.fluid, file.domain.dx)?;
     let collision = collision::collision(&file.collision, tau)?;
     let faces = faces::faces(&file.faces, &units)?;
     let domain = Domain::new(cells, faces).map_err(|error| faces::trouble(&error))?;
     let mut setup = Setup::fluid(domain, collision);
-    setup.body_force =
-        file.body_force.as_ref().map(|section| body_force(section, &units)).transpose()?;
+    setup.body_force = match &file.body_force {
+        Some(section) => {
+            Some(acceleration("body_force.acceleration", section.acceleration, &units)?)
+        }
+        None => None,
+    };
     let initial_velocity = match &file.initial {
         Some(initial) => velocity("initial.velocity", initial.velocity, &units)?,
         None => Vec3::zeros(),
@@ -103,30 +110,30 @@ fn velocity(key: &str, si_velocity: [f64; 3], units: &Units) -> Result<Vec3, Tro
         return Ok(velocity);
     }
     let problem = format!(
-        "its speed is {speed:.3} cells per time step (Mach {:.2}); at most {MAX_SPEED} is allowed",
+        "its speed is {} cells per time step (Mach {:.2}); at most {MAX_SPEED} is allowed",
+        beyond(speed, MAX_SPEED),
         speed * 3.0_f64.sqrt()
     );
-    let remedy = format!(
-        "shorten the time step to {:.3e} s or less (`time.dt`, or a smaller `time.tau`), or use a \
-         smaller `domain.dx` with the same tau",
-        units.si_dt * 0.5 * MAX_SPEED / speed
-    );
+    let remedy = shorter_step(units, 0.5 * MAX_SPEED / speed)
+        + " (or a smaller `time.tau`), or use a smaller `domain.dx` with the same tau";
     Err(Trouble::new(key, problem, remedy))
 }
 
-/// The body force per volume in lattice units.
-fn body_force(section: &BodyForceSection, units: &Units) -> Result<Vec3, Trouble> {
-    let key = "body_force.acceleration";
-    finite(key, &section.acceleration, "m/s2")?;
-    let force = Units::to_lattice(section.acceleration, units.si_acceleration());
-    if force.norm() <= MAX_SPEED {
-        return Ok(force);
+/// An acceleration in lattice units, if it is weak enough.
+fn acceleration(key: &str, si_acceleration: [f64; 3], units: &Units) -> Result<Vec3, Trouble> {
+    finite(key, &si_acceleration, "m/s2")?;
+    let acceleration = Units::to_lattice(si_acceleration, units.si_acceleration());
+    let gain = acceleration.norm();
+    if gain <= MAX_SPEED {
+        return Ok(acceleration);
     }
     let problem = format!(
-        "it gains {:.3e} cells per time step in each step; at most {MAX_SPEED} is allowed",
-        force.norm()
+        "it gains {} cells per time step in each step; at most {MAX_SPEED} is allowed",
+        beyond(gain, MAX_SPEED)
     );
-    Err(Trouble::new(key, problem, "use a weaker force or a shorter time step"))
+    // What a step gains goes with its square.
+    let remedy = shorter_step(units, (0.5 * MAX_SPEED / gain).sqrt()) + ", or use a weaker one";
+    Err(Trouble::new(key, problem, remedy))
 }
 
 /// What the sections' own checks have let through: said in the reference's words.

@@ -33,8 +33,8 @@ pub(super) fn inside(
         }
         let stick_out = [radius - centre[axis], centre[axis] + radius - length];
         for (face, out) in domain.faces().axis(axis).into_iter().zip(stick_out) {
-            if out > 2.0 * radius * MAX_OVERLAP && !matches!(face, Face::Periodic | Face::FreeSlip)
-            {
+            let holds = matches!(face, Face::Periodic | Face::FreeSlip);
+            if !(holds || out <= 2.0 * radius * MAX_OVERLAP) {
                 let problem = format!(
                     "a grain at {} = {si_at:.6e} m sticks {:.3e} m out of the box (0 to \
                      {si_length:.6e} m)",
@@ -45,7 +45,8 @@ pub(super) fn inside(
                 return Err(Trouble::new(key, problem, remedy));
             }
         }
-        if domain.is_periodic(axis) && 2.0 * radius > length * (1.0 + MAX_OVERLAP) {
+        let fits = 2.0 * radius <= length * (1.0 + MAX_OVERLAP);
+        if domain.is_periodic(axis) && !fits {
             let problem = format!(
                 "a grain of diameter {:.4e} m is larger than the periodic box along {} ({si_length:.4e} \
                  m): it overlaps its own image",
@@ -76,7 +77,8 @@ pub(super) fn apart(domain: &Domain, grains: &[Listed], units: &Units) -> Result
             }
             let (a, b) = (&balls[i], &balls[j]);
             let overlap = a.2 + b.2 - distance(domain, &a.1, &b.1);
-            if overlap > MAX_OVERLAP * 2.0 * a.2.min(b.2) {
+            let is_small = overlap <= MAX_OVERLAP * 2.0 * a.2.min(b.2);
+            if !is_small {
                 let (first, second) = (a.0.min(b.0), a.0.max(b.0));
                 let problem = format!(
                     "{} and {} overlap by {:.3e} m; {:.0} % of the smaller diameter is the limit",

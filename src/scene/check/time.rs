@@ -3,10 +3,16 @@
 use psmrt_reference::lattice::relaxation_time;
 use psmrt_reference::rates::Rates;
 
-use super::numbers::{absent, needed, positive};
+use super::numbers::{absent, needed, positive, sane};
 use super::{MAX_SPEED, Trouble};
 use crate::scene::format::{FluidSection, TimeSection};
 use crate::scene::units::Units;
+
+/// The largest relaxation time that is taken: places of walls and grains are lost far below.
+const LARGEST_TAU: f64 = 1e4;
+
+/// What messages propose.
+const USUAL_TAU: f64 = 0.8;
 
 /// The scales and the relaxation time.
 pub(super) fn units_and_tau(
@@ -46,8 +52,22 @@ pub(super) fn units_and_tau(
     };
     let units = Units { si_dx, si_dt, si_density: fluid.density };
     let tau = relaxation_time(si_nu / units.si_viscosity());
+    let usual = format!(
+        "`time.dt = {:.3e}` would be tau = {USUAL_TAU}: give that, instead of what sets it now",
+        step_of_tau(USUAL_TAU, si_dx, si_nu)?
+    );
     if let Err(error) = Rates::srt(tau) {
-        return Err(Trouble::new(key, error.to_string(), "use a longer time step or a finer grid"));
+        return Err(Trouble::new(key, error.to_string(), usual));
+    }
+    let can_be_meant = tau <= LARGEST_TAU;
+    if !can_be_meant {
+        let problem =
+            format!("the relaxation time is {tau:.3e} time steps; {LARGEST_TAU:e} is the limit");
+        return Err(Trouble::new(key, problem, usual));
+    }
+    if !units.si_all().iter().all(|scale| scale.is_normal()) {
+        let problem = format!("with a time step of {si_dt:.3e} s the scales are no numbers");
+        return Err(Trouble::new(key, problem, usual));
     }
     Ok((units, tau))
 }
@@ -65,6 +85,7 @@ fn step_of_tau(tau: f64, si_dx: f64, si_nu: f64) -> Result<f64, Trouble> {
 /// The time step with which `si_speed` becomes `speed` cells per step.
 fn step_of_speed(speed: f64, si_speed: f64, si_dx: f64) -> Result<f64, Trouble> {
     positive("time.reference_velocity", si_speed, "m/s")?;
+    sane("time.reference_velocity", si_speed, 1e-15..=1e9, "m/s")?;
     if !(speed > 0.0 && speed <= MAX_SPEED) {
         let problem = format!("it must be above 0 and at most {MAX_SPEED} cells per time step");
         return Err(Trouble::new(
