@@ -8,7 +8,6 @@ use crate::moments::{
     CellMatrix, Moments, inverse_moment_matrix, moment_matrix, relaxation_matrix,
 };
 use crate::rates::{RateError, Rates};
-use faer::{Mat, Scale};
 
 /// Which collision the fluid uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +73,7 @@ impl MrtOperator {
     pub fn new(diagonal: &Moments) -> Self {
         let inverse = inverse_moment_matrix();
         let s_hat = relaxation_matrix(diagonal);
-        let half_left = Mat::<f64>::identity(Q, Q) - Scale(0.5) * &s_hat;
+        let half_left = s_hat.map(|rate| 1.0 - 0.5 * rate);
         MrtOperator {
             to_moments: CellMatrix::from_faer(&moment_matrix()),
             relax: CellMatrix::from_faer(&(&inverse * &s_hat)),

@@ -5,6 +5,7 @@
 //! numbered with x fastest: `index = x + nx (y + ny z)`.
 
 use crate::lattice::Vec3;
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// What happens at one face of the box. Velocities and densities in lattice units.
@@ -189,6 +190,16 @@ impl Domain {
     /// Whether axis 0, 1 or 2 is periodic.
     pub fn is_periodic(&self, axis: usize) -> bool {
         self.faces.axis(axis)[0] == Face::Periodic
+    }
+
+    /// Those of `cells` along an axis that the box has: all of them where it is periodic.
+    pub fn within(&self, axis: usize, cells: RangeInclusive<i64>) -> RangeInclusive<i64> {
+        let n = i64::try_from(self.cells[axis]).unwrap_or(i64::MAX);
+        if self.is_periodic(axis) {
+            cells
+        } else {
+            (*cells.start()).max(0)..=(*cells.end()).min(n - 1)
+        }
     }
 
     /// The cell at unbounded coordinates: wrapped along periodic axes, `None` outside the box.

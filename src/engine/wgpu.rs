@@ -200,7 +200,11 @@ impl Engine for KernelEngine {
         };
         let sight = Sight { mean_density: density, max_speed: bare_speed, broken };
         let judged = self.guard.judge(self.kernel.setup(), self.steps, &sight);
-        Ok(judged.map_err(CoupledStop::from)?)
+        let explained = judged.map_err(|stopped| match &self.grains {
+            Some((grains, _)) => grains.explain(stopped),
+            None => stopped,
+        });
+        Ok(explained.map_err(CoupledStop::from)?)
     }
 
     fn still_works(&self) -> Result<(), EngineStop> {

@@ -4,21 +4,25 @@
 mod accuracy;
 mod contacts;
 mod density;
+mod ends;
 mod faces;
 mod gravity;
 mod lists;
 mod records;
 mod scales;
 pub(crate) mod stability;
+mod start;
 
 use super::Warning;
 use crate::scene::Scene;
 
 /// The topics, in the order in which they are told.
-const TOPICS: [fn(&Scene) -> Vec<Warning>; 9] = [
+const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     scales::warnings,
     accuracy::warnings,
     faces::warnings,
+    start::warnings,
+    ends::warnings,
     gravity::warnings,
     density::warnings,
     contacts::warnings,
@@ -29,7 +33,7 @@ const TOPICS: [fn(&Scene) -> Vec<Warning>; 9] = [
 
 /// All that looks risky.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    TOPICS.into_iter().flat_map(|topic| topic(scene)).collect()
+    TOPICS.iter().flat_map(|topic| topic(scene)).collect()
 }
 
 /// A warning.

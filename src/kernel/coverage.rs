@@ -10,7 +10,7 @@ use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
 use super::numbers::{count, single};
-use super::sphere::{sampled_fraction, solid_fractions};
+use super::sphere::{cells_about, sampled_fraction, solid_fractions};
 
 /// One cell that a solid touches.
 #[derive(Clone, Copy, Debug)]
@@ -237,13 +237,15 @@ fn list_sphere(
             touches.push(Touch { cell: count(domain.index(inside)), epsilon, arm });
         }
     };
+    let [x_range, y_range, z_range] = cells_about((*centre).into(), radius);
+    let cells = [domain.within(0, x_range), domain.within(1, y_range), domain.within(2, z_range)];
     let CoverageRule::Sampled { n } = rule else {
-        return solid_fractions((*centre).into(), radius, add);
+        return solid_fractions((*centre).into(), radius, cells, add);
     };
-    let range = |axis: usize| floor(centre[axis] - radius)..=floor(centre[axis] + radius);
-    for z in range(2) {
-        for y in range(1) {
-            for x in range(0) {
+    let [x_range, y_range, z_range] = cells;
+    for z in z_range {
+        for y in y_range.clone() {
+            for x in x_range.clone() {
                 let middle = Vec3::new(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5);
                 let epsilon = sampled_fraction((centre - middle).into(), radius, n);
                 if epsilon > 0.0 {
@@ -252,10 +254,4 @@ fn list_sphere(
             }
         }
     }
-}
-
-/// The cell of a coordinate.
-#[expect(clippy::cast_possible_truncation, reason = "coordinates of solids are far below 2^63")]
-fn floor(coordinate: f64) -> i64 {
-    coordinate.floor() as i64
 }

@@ -50,5 +50,5 @@ pub use error::KernelError;
 pub use fluid::Kernel;
 pub use fractions::solid_fractions_on_device;
 pub use sight::Summary;
-pub use sphere::{sampled_fraction, solid_fraction, solid_fractions};
+pub use sphere::{cells_about, sampled_fraction, solid_fraction, solid_fractions};
 pub use watch::{Beginning, KernelTimes, Spent};

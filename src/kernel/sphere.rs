@@ -6,6 +6,7 @@
 //! three outer sides, what lies beyond two of them counted once.
 
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 /// Solid fraction, 0 to 1, of the cell `-1/2..1/2`³ in a ball of `radius` cells about `centre`. Its
 /// error is a few times `1e-16 (1 + radius³)`, far below the single precision that it is used in.
@@ -31,12 +32,30 @@ pub fn solid_fraction(centre: [f64; 3], radius: f64) -> f64 {
     volume.clamp(0.0, 1.0)
 }
 
-/// Tells the solid fraction of each cell that a ball of `radius` about `centre` touches, by the cell's
+/// The cells along each axis, by their lowest corners, among which are all that a ball touches.
+pub fn cells_about(centre: [f64; 3], radius: f64) -> [RangeInclusive<i64>; 3] {
+    centre.map(|c| floor(c - radius)..=floor(c + radius))
+}
+
+/// The cell of a coordinate.
+#[expect(clippy::cast_possible_truncation, reason = "beyond 2^63 it saturates")]
+fn floor(coordinate: f64) -> i64 {
+    coordinate.floor() as i64
+}
+
+/// Tells the solid fraction of each of `cells` that a ball of `radius` about `centre` touches, by the cell's
 /// lowest corner. The same sum as [`solid_fraction`]; cells that share a corner share its volume, and
 /// corners on a line or in a plane share the parts of it that depend on two axes or on one.
-pub fn solid_fractions(centre: [f64; 3], radius: f64, mut tell: impl FnMut([i64; 3], f64)) {
-    let axes = centre.map(|c| Nodes::along(c, radius));
-    let [x, y, z] = &axes;
+pub fn solid_fractions(
+    centre: [f64; 3],
+    radius: f64,
+    cells: [RangeInclusive<i64>; 3],
+    mut tell: impl FnMut([i64; 3], f64),
+) {
+    if cells.iter().any(RangeInclusive::is_empty) {
+        return;
+    }
+    let [x, y, z] = &[0, 1, 2].map(|axis| Nodes::along(centre[axis], radius, &cells[axis]));
     let wedges = [[x, y], [y, z], [z, x]].map(|[a, b]| {
         let wedge = |i: usize| half_wedge(a.at[i % a.len()], b.at[i / a.len()], radius);
         (0..a.len() * b.len()).map(wedge).collect::<Vec<f64>>()
@@ -85,7 +104,7 @@ pub fn solid_fractions(centre: [f64; 3], radius: f64, mut tell: impl FnMut([i64;
     }
 }
 
-/// Corners of cells along one axis, from below a ball to above it.
+/// Corners of cells along one axis.
 struct Nodes {
     /// The lowest.
     first: i64,
@@ -99,17 +118,12 @@ struct Nodes {
 }
 
 impl Nodes {
-    fn along(centre: f64, radius: f64) -> Self {
-        let first = (centre - radius).floor();
-        let last = (centre + radius).floor() + 1.0;
-        let offsets: Vec<f64> = (0..)
-            .map(|i| first + f64::from(i) - centre)
-            .take_while(|x| *x <= last - centre)
-            .collect();
+    fn along(centre: f64, radius: f64, cells: &RangeInclusive<i64>) -> Self {
+        let corners = *cells.start()..=*cells.end() + 1;
+        let offsets: Vec<f64> = corners.map(|i| i as f64 - centre).collect();
         let at: Vec<f64> = offsets.iter().map(|x| x.abs().min(radius)).collect();
         Nodes {
-            #[expect(clippy::cast_possible_truncation, reason = "coordinates are far below 2^63")]
-            first: first as i64,
+            first: *cells.start(),
             signs: offsets.iter().map(|x| x.signum()).collect(),
             caps: at.iter().map(|&x| quarter_cap(x, radius)).collect(),
             offsets,

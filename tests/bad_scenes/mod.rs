@@ -174,6 +174,7 @@ pub const BAD: &[Bad] = &[
     // Grains.
     Bad("diameter = 2e-4", "diameter = -2e-4", "grains[0].diameter", "above 0"),
     Bad("diameter = 2e-4", "diameter = 4e-5", "grains[0].diameter", "cells across"),
+    Bad("diameter = 2e-4", "diameter = 200.0", "grains[0].diameter", "far larger than the domain (1.0000e-3 x 5.0000e-4 x 5.0000e-4 m)"),
     Bad("diameter = 2e-4", "diameter = 2e-4\nlattice = \"sc\"", "grains[0].lattice", "belongs to"),
     Bad("diameter = 2e-4", "diameter = 2e-4\nspin = [0.0, 0.0, 1.0]", "grains[0].spin", "belongs to"),
     Bad("centre = [3e-4, 2.5e-4, 2.5e-4]", "centre = [3e-3, 2.5e-4, 2.5e-4]", "grains[0].centre", "outside the box"),

@@ -11,7 +11,7 @@ use common::random::Random;
 use common::sphere_quadrature::{STEP, fraction_by_quadrature, quadrature_with_step};
 use proptest::prelude::*;
 use psmrt_reference::coverage::{Coverage, CoverageRule, exact_fraction};
-use psmrt_reference::domain::{Domain, Faces};
+use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Solid;
 use std::f64::consts::{FRAC_1_SQRT_2, PI, SQRT_2};
@@ -363,5 +363,22 @@ fn coverage_of_spheres_that_have_moved_is_that_of_spheres_placed_there() {
         for cell in 0..domain.cell_count() {
             assert_eq!(moved.shares(cell), placed.shares(cell), "cell {cell}");
         }
+    }
+}
+
+#[test]
+fn a_sphere_far_larger_than_its_box_costs_what_it_covers_of_the_box() {
+    // 8e21 cells about it. Its surface crosses the box at x = 2, as flat as a wall: over the 8 x 8 cells
+    // it bends by at most (4² + 4²)/(2 a) = 1.6e-6.
+    let radius = 1e7;
+    let free_slip = [Face::FreeSlip; 2];
+    let domain = Domain::new([8; 3], Faces { x: free_slip, y: free_slip, z: free_slip }).unwrap();
+    let sphere = Solid::fixed_sphere(Vec3::new(2.0 - radius, 4.0, 4.0), radius);
+    let coverage = Coverage::new(&domain, &[sphere], CoverageRule::Exact);
+    for cell in 0..domain.cell_count() {
+        let x = domain.coordinates(cell)[0];
+        let (found, wall) = (coverage.solid_fraction(cell), if x < 2 { 1.0 } else { 0.0 });
+        // Round-off of the fraction is a few times 1e-16 a², 0.01: a wall all the same.
+        assert!((found - wall).abs() < 0.05, "cell {cell} at x = {x}: {found} instead of {wall}");
     }
 }

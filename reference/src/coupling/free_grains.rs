@@ -138,6 +138,11 @@ impl FreeGrains {
         &self.grains
     }
 
+    /// The fluid's box.
+    pub(super) fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
     /// How fluid and grains act on each other.
     pub fn settings(&self) -> &CouplingSettings {
         &self.settings

@@ -30,6 +30,7 @@
 //! absent, without averaging that with `F`. At the start, with the fluid at rest, `Q` is the momentum of
 //! the grains alone, `Σ_s m_s v_0`.
 
+mod explain;
 mod free_grains;
 
 use crate::grains::grain::Grain;
@@ -111,7 +112,7 @@ impl CoupledSolver {
 
     /// One step of fluid and grains. Errors when either is broken.
     pub fn step(&mut self) -> Result<(), CoupledStop> {
-        self.fluid.advance_fluid()?;
+        self.fluid.advance_fluid().map_err(|stopped| self.grains.explain(stopped))?;
         self.grains.step(self.fluid.loads())?;
         let solids = self.grains.solids();
         self.fluid.place_solids(|number, solid| {
@@ -129,7 +130,7 @@ impl CoupledSolver {
 
     /// Looks for a broken state of the fluid now, whatever the step.
     pub fn check_now(&mut self) -> Result<(), CoupledStop> {
-        Ok(self.fluid.check_now()?)
+        Ok(self.fluid.check_now().map_err(|stopped| self.grains.explain(stopped))?)
     }
 
     /// What acts on each grain besides contacts in the coming step, the fluid's last load included.

@@ -172,7 +172,9 @@ fn covered_by_sphere(
     rule: CoverageRule,
 ) -> Vec<(usize, Share)> {
     let mut covered = Vec::new();
-    let range = |axis: usize| cell_at(centre[axis] - radius)..=cell_at(centre[axis] + radius);
+    let range = |axis: usize| {
+        domain.within(axis, cell_at(centre[axis] - radius)..=cell_at(centre[axis] + radius))
+    };
     for z in range(2) {
         for y in range(1) {
             for x in range(0) {
@@ -191,7 +193,7 @@ fn covered_by_sphere(
 }
 
 /// The cell that contains a coordinate along an axis.
-#[expect(clippy::cast_possible_truncation, reason = "coordinates of solids are far below 2^63")]
+#[expect(clippy::cast_possible_truncation, reason = "beyond 2^63 it saturates")]
 fn cell_at(coordinate: f64) -> i64 {
     coordinate.floor() as i64
 }

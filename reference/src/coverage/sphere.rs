@@ -93,39 +93,40 @@ fn edge_volume(a: f64, d: f64, e: f64, start: f64, end: f64) -> f64 {
     let mut volume = d * e * (leave - enter) / 3.0;
     for (s, t) in [(start, enter), (leave, end)] {
         if s < t {
-            volume += far_cone(a, d, e, s, t) + far_cone(a, e, d, s, t);
+            // |r|² = d² + e² + x², the distance of O from x on the edge
+            let r = [s, t].map(|x| (d * d + e * e + x * x).sqrt());
+            volume += far_cone(a, d, e, [s, t], r) + far_cone(a, e, d, [s, t], r);
         }
     }
     volume
 }
 
 /// Volume, in the sphere, of the cone over the stretch `s..t` of an edge where it is beyond the
-/// sphere; `d` from O to the face, `e` from F to the edge.
-fn far_cone(a: f64, d: f64, e: f64, s: f64, t: f64) -> f64 {
+/// sphere; `d` from O to the face, `e` from F to the edge, `r` from O to `s` and `t`.
+fn far_cone(a: f64, d: f64, e: f64, stretch: [f64; 2], r: [f64; 2]) -> f64 {
     // V = ± (ω a³ / 3 - κ Δφ), the sign that of d
-    let sector = solid_angle(d.abs(), e, s, t) * a * a * a / 3.0;
-    let cap = cap_per_radian(a, d.abs()) * plane_angle(e, s, t);
+    let sector = solid_angle(d.abs(), e, stretch, r) * a * a * a / 3.0;
+    // A plane that passes the sphere by cuts off no cap: its angle, half of the work, is not needed.
+    let cap = if d.abs() < a { cap_per_radian(a, d.abs()) * plane_angle(e, stretch) } else { 0.0 };
     d.signum() * (sector - cap)
 }
 
 /// Solid angle of the triangle s F t, seen from O; its sign is that of `e`.
-fn solid_angle(d: f64, e: f64, s: f64, t: f64) -> f64 {
-    // |r|² = d² + e² + x², the distance of O from x on the edge
-    let r = |x: f64| (d * d + e * e + x * x).sqrt();
+fn solid_angle(d: f64, e: f64, [s, t]: [f64; 2], [r_s, r_t]: [f64; 2]) -> f64 {
     // With n the face's normal: n·r_s = n·r_t = d, n·(r_s × r_t) = e (t - s), r_s·r_t = d² + e² + st
     // tan(ω/2) = n·(r_s × r_t) / (|r_s| |r_t| + n·r_s |r_t| + n·r_t |r_s| + r_s·r_t)
-    2.0 * (e * (t - s)).atan2((r(s) + d) * (r(t) + d) + e * e + s * t)
+    2.0 * (e * (t - s)).atan2((r_s + d) * (r_t + d) + e * e + s * t)
 }
 
 /// Angle at F of the triangle s F t; its sign is that of `e`.
-fn plane_angle(e: f64, s: f64, t: f64) -> f64 {
+fn plane_angle(e: f64, [s, t]: [f64; 2]) -> f64 {
     // tan Δφ = e (t - s) / (e² + s t)
     (e * (t - s)).atan2(e * e + s * t)
 }
 
-/// Volume, per radian about its axis, of the cap that a plane at distance `d >= 0` cuts off.
+/// Volume, per radian about its axis, of the cap that a plane at distance `d` from 0 to `a` cuts off.
 fn cap_per_radian(a: f64, d: f64) -> f64 {
     // κ = V_cap / 2π = h² (3a - h) / 6, h = a - d
-    let height = (a - d).max(0.0);
+    let height = a - d;
     height * height * (3.0 * a - height) / 6.0
 }

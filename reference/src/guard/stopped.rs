@@ -50,6 +50,37 @@ pub enum Cause {
         /// Mean density now over mean density at the first look.
         ratio: f64,
     },
+    /// A velocity inlet set in motion fluid that moved otherwise, and the sound of that start runs to and fro
+    /// between the inlet and a pressure face.
+    ImpulsiveStart {
+        /// The inlet.
+        face: &'static str,
+        /// Its velocity along its normal.
+        speed: f64,
+        /// Mean density now over mean density at the first look.
+        ratio: f64,
+    },
+    /// A velocity inlet pushes against more resistance than the fluid's weak compressibility allows.
+    ResistedInlet {
+        /// The inlet.
+        face: &'static str,
+        /// Mean density now over mean density at the first look.
+        ratio: f64,
+    },
+    /// A free grain too light for the fluid inside it.
+    LightGrain {
+        /// Number of the solid.
+        solid: usize,
+        /// Its density over the fluid's.
+        ratio: f64,
+    },
+    /// Grains and fluid fall together, for ever faster, in a box that is periodic along gravity.
+    EndlessFall {
+        /// Name of the axis.
+        axis: &'static str,
+        /// Mean velocity of the free grains along it.
+        speed: f64,
+    },
     /// The body force has driven the fluid too fast.
     BodyForce {
         /// Gain of speed per step.
@@ -124,6 +155,34 @@ impl fmt::Display for Stopped {
                 "the mean density has drifted to {ratio:.3} times its first value; a velocity \
                  inlet with a free outflow does not hold it. Use a pressure outlet"
             ),
+            Cause::ImpulsiveStart { face, speed, ratio } => write!(
+                out,
+                "the sound of an impulsive start. The inlet at face {face} moves at {speed:.3}; where the \
+                 fluid starts otherwise, at rest for example, a wave of that velocity and of {:.3} times \
+                 the density runs to and fro between the inlet and the pressure face, and hardly decays (the mean \
+                 density is {ratio:.3} times its first value). Start the fluid with the inlet's \
+                 velocity, or use a smaller velocity (a smaller time step)",
+                3.0_f64.sqrt() * speed
+            ),
+            Cause::ResistedInlet { face, ratio } => write!(
+                out,
+                "the inlet at face {face} pushes against too much resistance: the mean density is \
+                 {ratio:.3} times its first value, and must stay near 1 for a nearly incompressible \
+                 flow. Use a smaller time step, which lowers the pressure in lattice units, or a \
+                 slower flow"
+            ),
+            Cause::LightGrain { solid, ratio } => write!(
+                out,
+                "free grain {solid} has {ratio:.2} times the density of the fluid: grains this light \
+                 are driven by the inertia of the fluid inside them, whatever the time step. Make \
+                 it denser, or fix it or prescribe its motion"
+            ),
+            Cause::EndlessFall { axis, speed } => write!(
+                out,
+                "grains and fluid fall together, faster and faster ({speed:.3} on the mean): the box \
+                 is periodic along gravity ({axis}), and nothing holds them back, whatever the time \
+                 step. Balance the weight, put walls at the ends of {axis} or fix a grain"
+            ),
             Cause::BodyForce { acceleration } => write!(
                 out,
                 "the body force gains {acceleration:.3e} per step and nothing held the fluid \
@@ -155,7 +214,9 @@ pub(super) fn probable_cause(guard: &Guard, setup: &Setup, step: u64) -> Cause {
         return Cause::InitialState;
     }
     let limit = guard.settings.max_speed;
-    if let Some((solid, speed)) = fastest_solid(setup).filter(|&(_, speed)| speed > 0.5 * limit) {
+    // A speed that is no number any more is no slow one.
+    let is_fast = |&(_, speed): &(usize, f64)| speed.is_nan() || speed > 0.5 * limit;
+    if let Some((solid, speed)) = fastest_solid(setup).filter(is_fast) {
         return Cause::SolidSpeed { solid, speed };
     }
     if let Some((face, speed)) = fastest_face(setup).filter(|&(_, speed)| speed > 0.5 * limit) {
@@ -164,9 +225,8 @@ pub(super) fn probable_cause(guard: &Guard, setup: &Setup, step: u64) -> Cause {
     if let Some(speed) = pressure_speed(setup).filter(|&speed| speed > 0.5 * limit) {
         return Cause::PressureDifference { speed };
     }
-    let ratio = guard.density_drift();
-    if (ratio - 1.0).abs() > MAX_DENSITY_DRIFT {
-        return Cause::DensityDrift { ratio };
+    if let Some(cause) = drift(setup, guard.density_drift()) {
+        return cause;
     }
     // A body force is to blame if, unopposed since the last look, it explains the speed.
     let acceleration = setup.body_force.map_or(0.0, |g| g.norm() / guard.last_mean_density);
@@ -180,6 +240,39 @@ pub(super) fn probable_cause(guard: &Guard, setup: &Setup, step: u64) -> Cause {
         return Cause::Unresolved { grid_reynolds };
     }
     Cause::Unknown
+}
+
+/// Sound of a start changes the mean density by no more than this many times its amplitude. Once by linear
+/// theory, until it first comes back from the other end; the rest is room for waves that steepen.
+const SOUND: f64 = 2.0;
+
+/// Why the mean density is not what it was, if it is not.
+fn drift(setup: &Setup, ratio: f64) -> Option<Cause> {
+    if (ratio - 1.0).abs() <= MAX_DENSITY_DRIFT {
+        return None;
+    }
+    let faces = setup.domain.faces();
+    let has = |wanted: fn(&Face) -> bool| (0..3).any(|axis| faces.axis(axis).iter().any(wanted));
+    let has_pressure = has(|face| matches!(face, Face::Pressure { .. }));
+    match strongest_inlet(setup).filter(|_| has_pressure) {
+        // δρ/ρ = u/c_s, c_s = 1/√3
+        Some((face, speed)) if (ratio - 1.0).abs() <= SOUND * 3.0_f64.sqrt() * speed => {
+            Some(Cause::ImpulsiveStart { face, speed, ratio })
+        }
+        Some((face, _)) if ratio > 1.0 => Some(Cause::ResistedInlet { face, ratio }),
+        _ => (!has_pressure && has(|face| *face == Face::FreeOutflow))
+            .then_some(Cause::DensityDrift { ratio }),
+    }
+}
+
+/// The inlet that lets most fluid in or out per area, and its velocity along its normal.
+fn strongest_inlet(setup: &Setup) -> Option<(&'static str, f64)> {
+    let all = (0..3).flat_map(|axis| [0, 1].map(|side| (axis, side)));
+    let inlets = all.filter_map(|(axis, side)| match setup.domain.faces().axis(axis)[side] {
+        Face::VelocityInlet { velocity } => Some((FACE_NAMES[axis][side], velocity[axis].abs())),
+        _ => None,
+    });
+    inlets.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// The solid whose centre or surface is fastest, and its speed.

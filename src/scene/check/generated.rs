@@ -149,7 +149,8 @@ fn radii(
         }
     };
     // Before any work: sizes and numbers out of all proportion would take for ever.
-    check_size(&size_key(section, *at), 0.5 * si_diameters[0] / place.units.si_dx, place.units)?;
+    let radius = 0.5 * si_diameters[0] / place.units.si_dx;
+    check_size(&size_key(section, *at), radius, place.domain, place.units)?;
     let si_volume: f64 = place.si_lengths().iter().product();
     if let Amount::Count(count) = amount
         && count as f64 * sphere_volume(0.5 * si_diameters[0]) > DENSEST * si_volume

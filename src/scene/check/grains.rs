@@ -125,7 +125,8 @@ impl GrainList {
                 let centre = Units::to_lattice(ball.si_centre, units.si_dx);
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
                 let (key, motion) = (grain_kinds::place_key(section, &at), section.motion);
-                check_size(&grain_kinds::size_key(section, &at), radius, units).map_err(on_line)?;
+                check_size(&grain_kinds::size_key(section, &at), radius, domain, units)
+                    .map_err(on_line)?;
                 check_speed(&at("spin"), &velocity, &spin, radius, units).map_err(on_line)?;
                 neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
                 let line = ball.line;
@@ -220,7 +221,28 @@ fn density(
 }
 
 /// Errors if a grain is too coarse.
-pub(super) fn check_size(key: &str, radius: f64, units: &Units) -> Result<(), Trouble> {
+pub(super) fn check_size(
+    key: &str,
+    radius: f64,
+    domain: &Domain,
+    units: &Units,
+) -> Result<(), Trouble> {
+    let lengths = domain.cells().map(|cells| cells as f64);
+    let largest = 4.0 * Vec3::from(lengths).norm();
+    if 2.0 * radius > largest {
+        let [x, y, z] = lengths.map(|length| length * units.si_dx);
+        let problem = format!(
+            "a grain of {:.4e} m is far larger than the domain ({x:.4e} x {y:.4e} x {z:.4e} m): no fluid is \
+             left, wherever its centre lies",
+            2.0 * radius * units.si_dx
+        );
+        let remedy = format!(
+            "lengths are in metres (a micrometre is 1e-6); a sphere that mirror faces cut may be up to \
+             {:.1e} m across",
+            largest * units.si_dx
+        );
+        return Err(Trouble::new(key, problem, remedy));
+    }
     if 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
         return Ok(());
     }

@@ -60,39 +60,92 @@ pub(super) fn inside(
 }
 
 /// Errors if two grains overlap by more than [`MAX_OVERLAP`].
+///
+/// Grains are entered one by one into cells of space, and compared with those that are there already.
+/// As long as none overlap, only so many fit about one, small or large: N grains take a time in
+/// proportion to N, whatever the shape of the box.
 pub(super) fn apart(domain: &Domain, grains: &[Listed], units: &Units) -> Result<(), Trouble> {
-    let ball = |(number, listed): (usize, &Listed)| (number, listed.centre, listed.radius);
-    let mut balls: Vec<(usize, Vec3, f64)> = grains.iter().enumerate().map(ball).collect();
-    balls.sort_by(|a, b| a.1.x.total_cmp(&b.1.x));
-    let reach = 2.0 * balls.iter().map(|ball| ball.2).fold(0.0, f64::max);
-    let (n, length) = (balls.len(), domain.cells()[0] as f64);
-    for i in 0..n {
-        // Along x as far as any grain can reach, and around the end of a periodic box.
-        for k in 1..n {
-            let j = (i + k) % n;
-            let wraps = i + k >= n;
-            let ahead = balls[j].1.x - balls[i].1.x + if wraps { length } else { 0.0 };
-            if ahead > reach || (wraps && !domain.is_periodic(0)) {
-                break;
+    let mut space = Space::new(domain, grains);
+    for (number, grain) in grains.iter().enumerate() {
+        for cell in space.touched(&grain.centre, grain.radius) {
+            for &other in &space.cells[cell] {
+                let between = distance(domain, &grains[other].centre, &grain.centre);
+                let (a, b) = (grains[other].radius, grain.radius);
+                let overlap = a + b - between;
+                // So that what is no number is an overlap too.
+                let is_small = overlap <= MAX_OVERLAP * 2.0 * a.min(b);
+                if !is_small {
+                    let problem = format!(
+                        "{} and {} overlap by {:.3e} m; {:.0} % of the smaller diameter is the limit",
+                        grains[other].name(other),
+                        grain.name(number),
+                        overlap * units.si_dx,
+                        100.0 * MAX_OVERLAP
+                    );
+                    let remedy = "move them apart or make them smaller";
+                    return Err(Trouble::new(&grain.key, problem, remedy));
+                }
             }
-            let (a, b) = (&balls[i], &balls[j]);
-            let overlap = a.2 + b.2 - distance(domain, &a.1, &b.1);
-            let is_small = overlap <= MAX_OVERLAP * 2.0 * a.2.min(b.2);
-            if !is_small {
-                let (first, second) = (a.0.min(b.0), a.0.max(b.0));
-                let problem = format!(
-                    "{} and {} overlap by {:.3e} m; {:.0} % of the smaller diameter is the limit",
-                    grains[first].name(first),
-                    grains[second].name(second),
-                    overlap * units.si_dx,
-                    100.0 * MAX_OVERLAP
-                );
-                let remedy = "move them apart or make them smaller";
-                return Err(Trouble::new(&grains[second].key, problem, remedy));
-            }
+            space.cells[cell].push(number);
         }
     }
     Ok(())
+}
+
+/// The box cut into cells about as large as a grain, each with the grains that touch it.
+struct Space {
+    counts: [usize; 3],
+    /// Their sides.
+    sides: [f64; 3],
+    periodic: [bool; 3],
+    cells: Vec<Vec<usize>>,
+}
+
+impl Space {
+    fn new(domain: &Domain, grains: &[Listed]) -> Self {
+        let lengths = domain.cells().map(|cells| cells as f64);
+        let mean = grains.iter().map(|g| 2.0 * g.radius).sum::<f64>() / grains.len().max(1) as f64;
+        // No more cells than twice the grains, or a few: an empty box costs nothing.
+        let room = lengths.iter().product::<f64>() / (2.0 * grains.len() as f64 + 8.0);
+        let side = mean.max(room.cbrt());
+        let counts = lengths.map(|length| whole(length / side).max(1));
+        Space {
+            counts,
+            sides: std::array::from_fn(|axis| lengths[axis] / counts[axis] as f64),
+            periodic: std::array::from_fn(|axis| domain.is_periodic(axis)),
+            cells: vec![Vec::new(); counts.iter().product()],
+        }
+    }
+
+    /// The cells that a box about a grain touches, each once.
+    fn touched(&self, centre: &Vec3, radius: f64) -> Vec<usize> {
+        let [x, y, z] = std::array::from_fn(|axis| self.along(axis, centre[axis], radius));
+        let (nx, ny) = (self.counts[0], self.counts[1]);
+        let rows = z.iter().flat_map(|z| y.iter().map(move |y| nx * (y + ny * z)));
+        rows.flat_map(|row| x.iter().map(move |x| x + row)).collect()
+    }
+
+    /// The same along one axis.
+    fn along(&self, axis: usize, centre: f64, radius: f64) -> Vec<usize> {
+        let n = self.counts[axis];
+        let last = n as f64 - 1.0;
+        let [low, high] =
+            [centre - radius, centre + radius].map(|x| (x / self.sides[axis]).floor());
+        if low <= 0.0 && high >= last || high - low >= last {
+            (0..n).collect()
+        } else if self.periodic[axis] {
+            let wrapped = |cell: f64| whole(cell.rem_euclid(n as f64));
+            (0..=whole(high - low)).map(|i| wrapped(low + i as f64)).collect()
+        } else {
+            (whole(low.max(0.0))..=whole(high.min(last))).collect()
+        }
+    }
+}
+
+/// A number without its fraction.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts of cells")]
+fn whole(number: f64) -> usize {
+    number as usize
 }
 
 /// Distance between two places, to the nearest image along periodic axes.

@@ -1,0 +1,63 @@
+//! Warnings of what pressure faces do to a channel between walls.
+
+use psmrt_reference::domain::{FACE_NAMES, Face};
+
+use super::warning;
+use crate::estimate::Warning;
+use crate::estimate::spheres::solid_fraction;
+use crate::scene::Scene;
+
+/// How much shorter a channel is at each pressure face, in widths: fitted. Plane channels of 1 to 4 widths at 8
+/// to 32 cells per width give 0.051 where the walls are placed exactly, whatever tau (`tests/oracle/boundaries.rs`),
+/// 0.055 at half a width, and with other rates about an eighth of a cell less (0.034 at 8 cells, 0.043 at 16); a
+/// square duct gives 0.042.
+const SHORTER: f64 = 0.051;
+
+/// A change of the flow smaller than this is not worth a word.
+const SMALL: f64 = 0.01;
+
+/// Where grains fill more than this, they and not the walls hold the fluid back.
+const FEW: f64 = 0.05;
+
+pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    let domain = &scene.setup.domain;
+    let is_pressure = |face: &Face| matches!(face, Face::Pressure { .. });
+    let between = |axis: &usize| domain.faces().axis(*axis).iter().all(is_pressure);
+    if solid_fraction(scene) > FEW {
+        return Vec::new();
+    }
+    (0..3).filter(between).filter_map(|axis| ends(scene, axis)).collect()
+}
+
+/// What the ends along `axis` do to the flow.
+fn ends(scene: &Scene, axis: usize) -> Option<Warning> {
+    let domain = &scene.setup.domain;
+    let narrowest = (0..3).filter(|&other| other != axis).filter_map(|other| {
+        let faces = domain.faces().axis(other);
+        let walls = faces.iter().filter(|face| matches!(face, Face::Wall { .. })).count();
+        // A mirror plane opposite the wall shows half of the channel.
+        let width = if faces.contains(&Face::FreeSlip) { 2 } else { 1 } * domain.cells()[other];
+        (walls > 0).then_some(width)
+    });
+    let (width, length) = (narrowest.min()? as f64, domain.cells()[axis] as f64);
+    let lost = 2.0 * SHORTER * width / length;
+    if lost < SMALL {
+        return None;
+    }
+    let size = if lost < 0.5 {
+        format!("flow that is {:.0} % too fast", 100.0 * (1.0 / (1.0 - lost) - 1.0))
+    } else {
+        "flow that is more than twice too fast".to_owned()
+    };
+    let [low, high] = FACE_NAMES[axis];
+    let reason = format!(
+        "the pressure faces {low} and {high} let no shear stress through, like the mouth of a jet: each makes the \
+         channel shorter by about {SHORTER} of its width, which here means a {size} for the pressures given"
+    );
+    let remedy = format!(
+        "make the ends periodic and drive the flow by [body_force] (pressure difference over density and \
+         length), which is exact, or make the channel at least {:.0} cells long",
+        (2.0 * SHORTER * width / SMALL).ceil()
+    );
+    Some(warning(reason, remedy))
+}

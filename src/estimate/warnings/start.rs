@@ -1,0 +1,90 @@
+//! Warnings of a start whose sound does not die away: a velocity inlet sets fluid in motion that moves
+//! otherwise, and the wave runs to and fro between it and a pressure face.
+
+use std::f64::consts::PI;
+
+use psmrt_reference::collision::Collision;
+use psmrt_reference::domain::{FACE_NAMES, Face};
+use psmrt_reference::lattice::{CS2, Vec3, viscosity};
+
+use super::warning;
+use crate::estimate::Warning;
+use crate::estimate::spheres::{solid_fraction, spheres};
+use crate::scene::Scene;
+
+/// A start that misses the inlet's velocity by less than this part of it is not worth a word.
+const SMALL: f64 = 0.01;
+
+pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    let faces = scene.setup.domain.faces();
+    let is_pressure = |face: &Face| matches!(face, Face::Pressure { .. });
+    if !(0..3).any(|axis| faces.axis(axis).iter().any(is_pressure)) {
+        return Vec::new();
+    }
+    let all = (0..3).flat_map(|axis| [0, 1].map(|side| (axis, side)));
+    let inlets = all.filter_map(|(axis, side)| match faces.axis(axis)[side] {
+        Face::VelocityInlet { velocity } => start(scene, axis, side, &velocity),
+        _ => None,
+    });
+    inlets.collect()
+}
+
+/// What the start of a stream through one inlet brings, if its sound is still there when the run ends.
+fn start(scene: &Scene, axis: usize, side: usize, velocity: &Vec3) -> Option<Warning> {
+    let missed = (velocity[axis] - scene.initial_velocity[axis]).abs();
+    if missed <= SMALL * velocity[axis].abs() {
+        return None;
+    }
+    let left = decay(scene, axis)?.powf(scene.stop.steps as f64);
+    if left < SMALL {
+        return None;
+    }
+    let si_velocity = velocity.map(|u| u * scene.units.si_velocity());
+    let reason = format!(
+        "the inlet at face {} sets fluid in motion that does not start with its velocity: the sound of that start \
+         runs to and fro between the inlet and the pressure face; the velocity swings by up to {:.0} % of \
+         the inlet's to either side, the density by {:.1} %, and {:.0} % of that is left when the run ends",
+        FACE_NAMES[axis][side],
+        100.0 * missed / velocity[axis].abs(),
+        // δρ/ρ = u/c_s
+        100.0 * missed / CS2.sqrt(),
+        100.0 * left
+    );
+    let [x, y, z] = si_velocity.into();
+    let remedy = format!(
+        "start the fluid with the inlet's velocity: `initial.velocity = [{x:?}, {y:?}, {z:?}]`"
+    );
+    Some(warning(reason, remedy))
+}
+
+/// What a step leaves of the slowest standing wave between an inlet and a pressure face along `axis`, a
+/// quarter of a wave long. `None` if friction lets nothing swing.
+fn decay(scene: &Scene, axis: usize) -> Option<f64> {
+    let (domain, collision) = (&scene.setup.domain, &scene.setup.collision);
+    let nu = viscosity(collision.tau());
+    let s_e = match collision {
+        Collision::Srt { tau } => 1.0 / tau,
+        Collision::Mrt { rates } => rates.e,
+    };
+    // ζ = 2/9 (1/s_e - 1/2)                            (d'Humières et al. 2002, with c_s² = 1/3)
+    let bulk = 2.0 / 9.0 * (1.0 / s_e - 0.5);
+    let k = PI / (2.0 * domain.cells()[axis] as f64);
+    let omega = CS2.sqrt() * k;
+    // d²p/dt² + 2 β dp/dt + ω² p = 0,  2 β = (4/3 ν + ζ) k² + friction
+    let mut twice_beta = (4.0 / 3.0 * nu + bulk) * k * k;
+    for across in (0..3).filter(|&other| other != axis) {
+        let width = domain.cells()[across] as f64;
+        let faces = domain.faces().axis(across);
+        let walls = faces.iter().filter(|face| matches!(face, Face::Wall { .. })).count() as f64;
+        // Of a wall's boundary layer (Kirchhoff 1868), or of Poiseuille flow where that fills the channel.
+        let layer = (0.5 * nu * omega).sqrt() / width;
+        twice_beta += walls * layer.min(6.0 * nu / (width * width));
+    }
+    let porosity = 1.0 - solid_fraction(scene);
+    for (_, radius, share) in spheres(scene) {
+        // Stokes drag, in a bed larger by ε^-3.7            (Wen & Yu 1966)
+        let drag = 6.0 * PI * nu * radius * porosity.powf(-3.7);
+        twice_beta += share * drag / domain.cell_count() as f64;
+    }
+    (0.5 * twice_beta < omega).then(|| (-0.5 * twice_beta).exp())
+}

@@ -1,0 +1,129 @@
+//! What `psmrt check` tells of inlets and pressure faces: the size of what they do to the flow, held to runs.
+
+mod common;
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use common::Budget;
+use psmrt::engine::{Engine, ReferenceEngine};
+use psmrt::estimate::{Warning, warnings};
+use psmrt::scene::Scene;
+
+fn scene(text: &str) -> Scene {
+    Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), Path::new("."), &[])
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The warning that says `part`, if there is one.
+fn warned(scene: &Scene, part: &str) -> Option<Warning> {
+    warnings(scene).into_iter().find(|warning| warning.reason.contains(part))
+}
+
+/// The number that stands before `unit` after `words`.
+fn said(reason: &str, words: &str, unit: &str) -> f64 {
+    let rest = &reason[reason.find(words).unwrap_or_else(|| panic!("{words:?} in: {reason}"))..];
+    let number = rest[words.len()..].split(unit).next().unwrap_or_default().trim();
+    number.parse().unwrap_or_else(|_| panic!("a number after {words:?} in: {reason}"))
+}
+
+const CHANNEL: &str = r#"
+[domain]
+cells = [LENGTH, WIDTH, 1]
+dx = 1e-4
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.8
+[faces]
+x_low = { kind = "pressure", pressure = 5e-5 }
+x_high = { kind = "pressure", pressure = -5e-5 }
+y_low.kind = "wall"
+y_high.kind = "wall"
+[stop]
+steps = 10
+"#;
+
+#[test]
+fn channel_between_pressure_faces_is_warned_of_with_the_measured_excess_of_its_flow() {
+    // Measured from outside (length, width, flow over the exact one), in a public issue about these faces; a
+    // fitted rule for all lengths should meet them to 3 % of the flow.
+    for (length, width, measured) in [(16, 16, 1.117), (32, 32, 1.115), (16, 32, 1.274)] {
+        let text =
+            CHANNEL.replace("LENGTH", &length.to_string()).replace("WIDTH", &width.to_string());
+        let due = warned(&scene(&text), "shear stress")
+            .unwrap_or_else(|| panic!("no warning at {length} x {width}"));
+        let excess = said(&due.reason, "a flow that is ", "%") / 100.0;
+        assert!(
+            (1.0 + excess - measured).abs() < 0.03,
+            "{length} x {width}: {excess} is said, {measured} times exact was measured"
+        );
+        assert!(due.remedy.contains("[body_force]"), "{due:?}");
+    }
+    // A mirror plane shows half of the channel: the same width, the same words.
+    let whole = CHANNEL.replace("LENGTH", "32").replace("WIDTH", "16");
+    let half = CHANNEL.replace("LENGTH", "32").replace("WIDTH", "8");
+    let half = half.replace("y_high.kind = \"wall\"", "y_high.kind = \"free_slip\"");
+    assert_eq!(warned(&scene(&half), "shear stress"), warned(&scene(&whole), "shear stress"));
+    // A long channel and one without walls are not worth a word.
+    let long = CHANNEL.replace("LENGTH", "200").replace("WIDTH", "16");
+    assert_eq!(warned(&scene(&long), "shear stress"), None);
+    let free = whole.replace("\"wall\"", "\"free_slip\"");
+    assert_eq!(warned(&scene(&free), "shear stress"), None);
+}
+
+/// A plug of 32 cells at tau = 1 and 0.01 cells per step.
+const PLUG: &str = r#"
+[domain]
+cells = [32, 1, 1]
+dx = 1e-3
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 1.0
+[collision]
+model = "srt"
+[faces]
+x_low = { kind = "velocity_inlet", velocity = [6e-5, 0.0, 0.0] }
+x_high = { kind = "pressure", pressure = 0.0 }
+[stop]
+steps = 2500
+"#;
+
+#[test]
+fn stream_started_from_rest_rings_as_long_as_check_says() {
+    let at_rest = scene(PLUG);
+    let due = warned(&at_rest, "the sound of that start").expect("a start from rest is warned of");
+    // δu = u and δρ/ρ = u/c_s = 0.01 √3, by linear acoustics.
+    assert_eq!(said(&due.reason, "swings by up to ", "%"), 100.0, "{due:?}");
+    assert_eq!(said(&due.reason, "the density by ", "%"), 1.7, "{due:?}");
+    let left = said(&due.reason, "%, and ", "%") / 100.0;
+    assert!(due.remedy.contains("initial.velocity = [6e-5, 0.0, 0.0]"), "{due:?}");
+
+    // d'Alembert's square wave, of which the decay leaves the slowest mode: its mean over the box swings by 8/π² u.
+    let (u, steps) = (0.01, 2500_u64);
+    let mut engine = ReferenceEngine::new(&at_rest).unwrap();
+    Budget::oracle(100_000).spend(32 * steps);
+    let (mut largest, mut at) = (0.0_f64, 0);
+    for step in 1..=steps {
+        engine.step(1).unwrap();
+        let off = (engine.box_means().mass_flux.x - u).abs();
+        // The last half period of 4 L/c_s = 222 steps.
+        if step + 111 > steps && off > largest {
+            (largest, at) = (off, step);
+        }
+    }
+    let expected = 8.0 / (PI * PI) * u * left.powf(at as f64 / steps as f64);
+    // Why 4 %: the percentage is said without decimals, 1.4 % of 37; compression adds u/c_s = 1.7 %.
+    assert!(
+        (largest / expected - 1.0).abs() < 0.04,
+        "the mean velocity swings by {largest:e} at step {at}, by what is said {expected:e}"
+    );
+    // With the inlet's velocity there is nothing to say; nor where the sound has died away by the end.
+    let moving = scene(&(PLUG.to_owned() + "[initial]\nvelocity = [6e-5, 0.0, 0.0]\n"));
+    assert_eq!(warned(&moving, "the sound of that start"), None);
+    let long = scene(&PLUG.replace("2500", "20000"));
+    assert_eq!(warned(&long, "the sound of that start"), None);
+}
