@@ -77,7 +77,7 @@ fn add(bench: &mut Bench, collision: &str, tau: f64, reynolds: f64) -> Result<()
             let (steps, max) = (run.engine.steps(), run.engine.box_means().max_speed);
             let change = (last - before) / last;
             // What the scene's criterion asks of the force.
-            let is_steady = end == End::Steady && change.abs() < 1e-3;
+            let is_steady = matches!(end, End::Steady { .. }) && change.abs() < 1e-3;
             let outcome = if is_steady { "steady" } else { "drifts" };
             format!("{outcome},{lattice:.5},{steps},{:.4},{max:.4},{change:.1e}", last / 1000.0)
         }

@@ -24,6 +24,7 @@ use crate::output::atomic;
 use crate::output::csv::Mark;
 use crate::output::folder::{self, RunFolder};
 use crate::output::hashed::Hashed;
+use crate::run::steady::Saved;
 use crate::scene::Scene;
 
 /// Name of the folder of a run's checkpoints.
@@ -73,10 +74,8 @@ pub struct Input {
 pub struct Progress {
     /// What each record's table holds.
     pub tables: Vec<Mark>,
-    /// Rows in a row that were steady.
-    pub quiet_rows: u32,
-    /// Bits of the last value that the steady-state criterion saw.
-    pub last_value_bits: Option<u64>,
+    /// What the steady-state criterion has seen, if there is one.
+    pub steady: Option<Saved>,
 }
 
 impl Header {

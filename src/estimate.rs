@@ -4,12 +4,14 @@
 //! | file | what it does |
 //! |---|---|
 //! | `numbers.rs` | the derived numbers |
+//! | `disk.rs` | how much it will write |
 //! | `models.rs` | which models are on, each with the reason |
 //! | `grains.rs` | both for free grains, and what their warnings rest on |
 //! | `spheres.rs` | the spheres of a scene, and how much of each the box holds |
 //! | `speed.rs` | how long it takes, measured on its first steps |
 //! | `warnings.rs`, `warnings/` | what looks risky, one topic a file |
 
+pub mod disk;
 mod grains;
 pub mod memory;
 mod models;

@@ -2,6 +2,7 @@
 
 mod available;
 
+use std::path::Path;
 use std::time::Duration;
 
 pub use available::{Available, available};
@@ -18,6 +19,24 @@ pub fn memory_bytes() -> Option<u64> {
 pub fn memory_words() -> String {
     let gib = |bytes| format!("{:.1} GiB", bytes as f64 / (1_u64 << 30) as f64);
     memory_bytes().map_or_else(|| "unknown".to_owned(), gib)
+}
+
+/// Bytes that this user may still write where `folder` is, or will be, where the system says so.
+pub fn free_bytes(folder: &Path) -> Option<u64> {
+    let absolute = std::path::absolute(folder).ok()?;
+    let there = absolute.ancestors().find(|ancestor| ancestor.exists())?;
+    free_bytes_of(there)
+}
+
+#[cfg(unix)]
+fn free_bytes_of(folder: &Path) -> Option<u64> {
+    let found = rustix::fs::statvfs(folder).ok()?;
+    found.f_bavail.checked_mul(found.f_frsize)
+}
+
+#[cfg(not(unix))]
+fn free_bytes_of(_: &Path) -> Option<u64> {
+    None
 }
 
 /// Name of the processor, where the system says so.

@@ -58,6 +58,9 @@ enum Command {
     /// Runs a scene
     #[command(after_help = "Ctrl-C saves the state; `psmrt resume` goes on from it.
 
+Exit codes: 0 done; 1 failed; 2 wrong scene or options; 3 at its limit and not steady (with `stop.steady`; the
+results are written all the same); 130 interrupted.
+
 Examples:
   psmrt run golden/poiseuille/scene.toml
   psmrt run golden/poiseuille/scene.toml --set time.tau=0.6 --out out/tau_0.6")]
@@ -248,7 +251,7 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
 
 /// Says what went wrong: as JSON, in colour on a terminal, or plainly.
 fn report(error: &CommandError, json: bool) {
-    if matches!(error, CommandError::CandidateFailed) {
+    if matches!(error, CommandError::CandidateFailed | CommandError::NotSteady) {
         return; // the verdict is the report
     }
     if json {

@@ -1,5 +1,7 @@
 //! The time loop: steps, records, checkpoints, and when to stop.
 
+pub mod steady;
+
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -8,11 +10,13 @@ use std::time::Instant;
 use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
+use crate::courses::Lookout;
 use crate::engine::{Engine, EngineStop};
 use crate::output::folder::RunFolder;
-use crate::output::records::{Recorder, box_row, force_row};
-use crate::output::{grain_means, names};
-use crate::scene::{Interval, Rhythm, Scene, Steady, What};
+use crate::output::names;
+use crate::output::records::Recorder;
+use crate::scene::{Interval, Rhythm, Scene};
+use crate::stopped_grain::{self, GrainStop};
 
 /// A run that could not go on.
 #[derive(Debug, Error)]
@@ -20,6 +24,17 @@ pub enum RunError {
     /// The guard has stopped it, a free grain cannot be moved, or the device has failed.
     #[error(transparent)]
     Stopped(#[from] EngineStop),
+    /// A contact has not held a free grain, or a grain is nowhere.
+    #[error(transparent)]
+    Grain(#[from] Box<GrainStop>),
+    /// The way of a prescribed sphere has ended.
+    #[error("stopped: {said}\n  help: {remedy}")]
+    Met {
+        /// What it has run into.
+        said: String,
+        /// What to do.
+        remedy: String,
+    },
     /// Its results cannot be written.
     #[error("results cannot be written: {0}; what was written before is whole")]
     Write(#[from] io::Error),
@@ -56,10 +71,18 @@ impl RunError {
 /// Why a run ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
-    /// It has made all the steps that the scene allows.
+    /// It has made all the steps that the scene allows, and nothing more was asked of it.
     Limit,
     /// It has become steady.
-    Steady,
+    Steady {
+        /// What is still to go, see [`steady::History::left`].
+        left: Option<f64>,
+    },
+    /// It has made all the steps that the scene allows and has not become steady.
+    NotSteady {
+        /// The same.
+        left: Option<f64>,
+    },
     /// The user has interrupted it; its state is saved.
     Interrupted,
 }
@@ -97,9 +120,9 @@ fn reopen(scene: &Scene, folder: &Path, progress: &Progress) -> io::Result<Vec<R
 
 /// Who watches a run. Told after every batch of steps; answers whether to go on.
 pub trait Watcher {
-    /// `steps` have been made so far; `change` is the last relative change of the steady-state
-    /// criterion, if there is one.
-    fn watch(&mut self, steps: u64, change: Option<f64>) -> bool;
+    /// `steps` have been made so far; `left` is what is still to go until the flow is steady, relative, if
+    /// the scene has a criterion and that is known.
+    fn watch(&mut self, steps: u64, left: Option<f64>) -> bool;
 }
 
 /// Steps between two calls of the watcher, at most: about so many cell updates.
@@ -114,7 +137,7 @@ pub fn run(
     resumed: Option<&Progress>,
     watcher: &mut dyn Watcher,
 ) -> Result<End, RunError> {
-    let mut run = Run::begin(scene, folder, resumed)?;
+    let mut run = Run::begin(scene, folder, resumed, engine.steps())?;
     let end = match run.advance(engine, resumed.is_none(), watcher) {
         Err(error) if error.misses_a_file() => return Err(run.rescue(engine)),
         end => end?,
@@ -149,7 +172,8 @@ struct Run<'a> {
     scene: &'a Scene,
     folder: &'a RunFolder,
     recorders: Vec<Recorder>,
-    quiet: Option<Quiet>,
+    steady: Option<steady::Watch>,
+    lookout: Lookout,
 }
 
 impl<'a> Run<'a> {
@@ -157,6 +181,7 @@ impl<'a> Run<'a> {
         scene: &'a Scene,
         folder: &'a RunFolder,
         resumed: Option<&Progress>,
+        start: u64,
     ) -> Result<Self, RunError> {
         folder.prepare(scene)?;
         let path = folder.path();
@@ -172,8 +197,29 @@ impl<'a> Run<'a> {
                 recorders
             }
         };
-        let quiet = scene.stop.steady.clone().map(|steady| Quiet::begin(steady, resumed));
-        Ok(Run { scene, folder, recorders, quiet })
+        let steady = steady::Watch::begin(scene, resumed.and_then(|p| p.steady.as_ref()));
+        let lookout = Lookout::new(scene, start);
+        Ok(Run { scene, folder, recorders, steady, lookout })
+    }
+
+    /// Steps to the next event. Errors where the state breaks or a prescribed sphere's way ends: then
+    /// nothing more is recorded.
+    fn step_on(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+        let now = engine.steps();
+        let event = self.next_event(now);
+        let meeting = self.lookout.meeting_until(event, u64::MAX);
+        let until = meeting.map_or(event, |meeting| meeting.step);
+        if let Err(stop) = engine.step(until - now) {
+            let grain = stopped_grain::explained(&stop, self.scene, engine);
+            return Err(grain.map_or(RunError::Stopped(stop), |stop| Box::new(stop).into()));
+        }
+        match meeting {
+            None => Ok(()),
+            Some(meeting) => Err(RunError::Met {
+                said: meeting.said(self.scene),
+                remedy: meeting.remedy(self.scene),
+            }),
+        }
     }
 
     /// Makes steps until the run has come to an end.
@@ -189,13 +235,15 @@ impl<'a> Run<'a> {
         let mut saved = Saved { step: engine.steps(), at: Instant::now() };
         loop {
             let now = engine.steps();
-            if self.quiet.as_ref().is_some_and(Quiet::is_met) {
-                return Ok(End::Steady);
+            let left = self.steady.as_ref().and_then(steady::Watch::left);
+            if self.steady.as_ref().is_some_and(steady::Watch::is_met) {
+                return Ok(End::Steady { left });
             }
             if now >= self.scene.stop.steps {
-                return Ok(End::Limit);
+                let is_missed = self.steady.is_some();
+                return Ok(if is_missed { End::NotSteady { left } } else { End::Limit });
             }
-            let go_on = watcher.watch(now, self.quiet.as_ref().and_then(|quiet| quiet.change));
+            let go_on = watcher.watch(now, left);
             if !go_on || saved.is_due(self.scene.checkpoint, now) {
                 self.save(engine)?;
                 saved = Saved { step: now, at: Instant::now() };
@@ -203,7 +251,7 @@ impl<'a> Run<'a> {
             if !go_on {
                 return Ok(End::Interrupted);
             }
-            engine.step(self.next_event(now) - now)?;
+            self.step_on(engine)?;
             self.observe(engine)?;
             engine.still_works()?;
         }
@@ -224,8 +272,8 @@ impl<'a> Run<'a> {
         for recorder in self.recorders.iter_mut().filter(|r| r.record.rhythm.is_due(now)) {
             written = written.and(recorder.take(self.scene, engine));
         }
-        if let Some(quiet) = &mut self.quiet {
-            quiet.look(self.scene, engine);
+        if let Some(steady) = &mut self.steady {
+            steady.look(self.scene, engine);
         }
         Ok(written?)
     }
@@ -257,11 +305,7 @@ impl<'a> Run<'a> {
     fn save_into(&mut self, folder: &RunFolder, engine: &mut dyn Engine) -> Result<(), RunError> {
         engine.look()?;
         let tables = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
-        let progress = Progress {
-            tables,
-            quiet_rows: self.quiet.as_ref().map_or(0, |quiet| quiet.rows),
-            last_value_bits: self.quiet.as_ref().and_then(|q| Some(q.last?.to_bits())),
-        };
+        let progress = Progress { tables, steady: self.steady.as_ref().map(steady::Watch::save) };
         checkpoint::save(folder, self.scene, engine, progress)?;
         Ok(())
     }
@@ -303,46 +347,5 @@ impl<'a> Run<'a> {
             recorder.sync()?;
         }
         Ok(())
-    }
-}
-
-/// Rows in a row that must be quiet.
-const QUIET_ROWS: u32 = 3;
-
-/// Watches one column of one record.
-struct Quiet {
-    steady: Steady,
-    last: Option<f64>,
-    rows: u32,
-    change: Option<f64>,
-}
-
-impl Quiet {
-    fn begin(steady: Steady, resumed: Option<&Progress>) -> Self {
-        let last = resumed.and_then(|progress| progress.last_value_bits).map(f64::from_bits);
-        let rows = resumed.map_or(0, |progress| progress.quiet_rows);
-        Quiet { steady, last, rows, change: None }
-    }
-
-    /// Looks at the column if its record is due.
-    fn look(&mut self, scene: &Scene, engine: &dyn Engine) {
-        if !scene.records[self.steady.record].rhythm.is_due(engine.steps()) {
-            return;
-        }
-        let value = match scene.records[self.steady.record].what {
-            What::GrainMeans => grain_means::row(scene, engine)[self.steady.column],
-            What::Loads => force_row(scene, engine)[self.steady.column],
-            _ => box_row(scene, engine)[self.steady.column],
-        };
-        // A value that is exactly zero says nothing: the flow has not begun, or has no such component.
-        let change = |last: f64| (value != 0.0).then(|| (value - last).abs() / value.abs());
-        self.change = self.last.and_then(change);
-        let is_quiet = self.change.is_some_and(|change| change <= self.steady.tolerance);
-        self.rows = if is_quiet { self.rows + 1 } else { 0 };
-        self.last = Some(value);
-    }
-
-    fn is_met(&self) -> bool {
-        self.rows >= QUIET_ROWS
     }
 }

@@ -49,12 +49,12 @@ fn flow_in_a_duct_holds_its_claims() {
 
 #[test]
 fn a_sphere_in_a_stream_holds_its_claims() {
-    holds("sphere_drag", &mut Budget::oracle(61_500_000));
+    holds("sphere_drag", &mut Budget::oracle(57_500_000));
 }
 
 #[test]
 fn seepage_through_a_bed_holds_its_claims() {
-    holds("seepage", &mut Budget::oracle(27_200_000));
+    holds("seepage", &mut Budget::oracle(24_500_000));
 }
 
 #[test]
@@ -175,11 +175,11 @@ fn a_run_that_does_not_settle_says_what_still_changes_and_who_limits_it() {
         assert!(matches!(error, CaseError::NotSteady { .. }), "{error}");
         error.to_string()
     };
-    // Three rows, 500 steps apart, of a flow that needs 29,500.
-    let text = told(&["stop.steps=1500", "stop.steady.tolerance=1e-7"]);
+    // Four rows, 500 steps apart, of a flow that needs ten times as long.
+    let text = told(&["stop.steps=2000", "stop.steady.tolerance=1e-7"]);
     for part in [
-        "not steady after 1500 steps",
-        "superficial_velocity_x has changed by",
+        "not steady after 2000 steps",
+        "superficial_velocity_x has 1.7e-1 of itself still to go",
         "1e-7 of itself",
         "Raise the `stop.steps` that the case sets in its own code",
     ] {
@@ -188,8 +188,8 @@ fn a_run_that_does_not_settle_says_what_still_changes_and_who_limits_it() {
     // Of two limits the smaller one is named: here that of the changes is not the one that ends the run.
     let text = told(&["stop.steps=100000000", "stop.time=0.1"]);
     assert!(text.contains("Raise the `stop.time` that the case sets"), "{text}");
-    // Too short for a change to be known.
+    // Too short for anything to be known.
     let text = told(&["stop.steps=600"]);
-    assert!(text.contains("fewer than three rows"), "{text}");
+    assert!(text.contains("fewer than four rows"), "{text}");
     budget.spend(bench.cell_updates());
 }

@@ -36,7 +36,7 @@ fn the_poiseuille_scene_is_exact_and_other_rates_err_by_the_known_slip() {
     let mut budget = Budget::oracle(4_000_000);
     let error = |found: &Value, key: &str| found[key].as_f64().unwrap();
     let magic = poiseuille(&mut budget, &folder, "magic", &[]);
-    // The run stops when 500 steps change the flow by 1e-12; 0.6 of that is left to go.
+    // The run stops when 1e-12 of the flow is left to go.
     assert!(error(&magic, "relative_l2") < 1e-12, "{magic}");
     for (name, changes) in [
         ("dhumieres", &["collision={ rates = \"dhumieres\" }"] as &[&str]),
@@ -78,16 +78,55 @@ fn a_run_ends_once_the_force_on_its_grain_is_steady() {
         .collect();
     // A quarter of the box: 10 x 40 x 10 cells, 50 steps from row to row.
     budget.spend(4000 * 50 * (forces.len() as u64 - 1));
-    let changes: Vec<f64> = forces.windows(2).map(|pair| (pair[1] / pair[0] - 1.0).abs()).collect();
-    let [.., before, a, b, c] = changes[..] else { panic!("{forces:?}") };
-    assert!(a.max(b).max(c) <= 1.02e-2 && before > 0.98e-2, "{changes:?}");
+    // The box rings: the force lies within the tolerance of its last value for an eighth of the time at least,
+    // and the first half of the run was wider.
+    let last = forces[forces.len() - 1];
+    let farthest = |rows: &[f64]| rows.iter().map(|f| (f / last - 1.0).abs()).fold(0.0, f64::max);
+    let (first, rest) = (&forces[..forces.len() / 2], &forces[forces.len() * 8 / 9..]);
+    assert!(farthest(rest) <= 1e-2 && farthest(first) > 1e-2, "{forces:?}");
+}
+
+#[test]
+fn a_run_that_is_not_steady_says_so_and_by_how_much() {
+    let folder = Folder::new("not_steady");
+    // Startup of the plates: the slowest part falls by e in H²/(π² ν), the 1038 steps of 32 cells at tau 0.8; the
+    // fastest of the rest by as much in a ninth of that.
+    Budget::oracle(576_000).spend(3 * 32 * 6000);
+    let run = |name: &str, more: &[&str]| {
+        let out = folder.path(name);
+        let mut arguments = vec!["run", POISEUILLE, "--out", out.to_str().unwrap()];
+        arguments.extend(more);
+        (psmrt(&arguments), fs::read_to_string(out.join("run.json")).unwrap())
+    };
+    let short = ["--set", "stop.steps=6000", "--set", "stop.steady.tolerance=1e-4"];
+    let (output, facts) = run("text", &short);
+    assert_eq!(output.status.code(), Some(3), "{}{}", stdout(&output), stderr(&output));
+    let said = stdout(&output);
+    // 96/π⁴ e^(-6000/1038) = 3.0e-3: thirty times what is allowed. A tenth of it for the discrete modes.
+    let number = |before: &str| -> f64 {
+        let rest = said.split(before).nth(1).unwrap_or_else(|| panic!("no {before:?}: {said}"));
+        rest.split(' ').next().unwrap().parse().unwrap()
+    };
+    assert!(said.starts_with("at its limit and NOT steady after 6000 steps"), "{said}");
+    assert!((number(" and has ") / 3.04e-3 - 1.0).abs() < 0.1, "{said}");
+    assert!((number("to go, ") / 30.4 - 1.0).abs() < 0.1, "{said}");
+    let facts: Value = serde_json::from_str(&facts).unwrap();
+    assert_eq!(facts["state"], "not steady", "{facts}");
+    assert!((facts["steady"]["left"].as_f64().unwrap() / 3.04e-3 - 1.0).abs() < 0.1, "{facts}");
+    assert!(folder.path("text/comparison.csv").is_file(), "results are written all the same");
+    // The same for scripts; and with nothing asked for, nothing is missed.
+    let (output, _) = run("json", &[&short[..], &["--json"]].concat());
+    assert_eq!(output.status.code(), Some(3));
+    assert_eq!(json(&output)["run"]["state"], "not steady");
+    let (output, _) = run("limit", &["--set", "stop={ steps = 6000 }"]);
+    assert!(output.status.success() && stdout(&output).starts_with("at its limit after"));
 }
 
 #[test]
 fn a_run_can_be_repeated_from_its_folder() {
     let folder = Folder::new("repeated");
     let mut budget = Budget::oracle(48_000);
-    poiseuille(&mut budget, &folder, "first", &["time.tau=0.7", "stop.steps=1500"]);
+    poiseuille(&mut budget, &folder, "first", &["time.tau=0.7", "stop={ steps = 1500 }"]);
     let scene = folder.path("first/scene.toml");
     let out = folder.path("again");
     let arguments = ["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()];
@@ -102,7 +141,7 @@ fn a_run_can_be_repeated_from_its_folder() {
 fn results_go_to_a_fresh_folder_each_time() {
     let folder = Folder::new("fresh");
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(POISEUILLE);
-    let arguments = ["run", scene.to_str().unwrap(), "--set", "stop.steps=10"];
+    let arguments = ["run", scene.to_str().unwrap(), "--set", "stop={ steps = 10 }"];
     for expected in ["out/poiseuille", "out/poiseuille-2", "out/poiseuille-3"] {
         let output = psmrt_in(&folder.path(""), &arguments);
         assert!(output.status.success(), "{}", stderr(&output));
@@ -132,7 +171,7 @@ fn a_run_says_the_warnings_of_the_check_once_each() {
     let folder = Folder::new("warned");
     let mut budget = Budget::oracle(4_000);
     // A sphere of 2 cells in a stream of Mach 0.29: whatever else is warned of, this is.
-    let changes = ["--set", "domain.dx=1.5e-4", "--set", "stop.time=3e-3"];
+    let changes = ["--set", "domain.dx=1.5e-4", "--set", "stop={ time = 3e-3 }"];
     let scene = "golden/sphere_drag/scene.toml";
     let checked = json(&psmrt(&[&["check", scene, "--json"], &changes[..]].concat()));
     let wanted = checked["warnings"].as_array().unwrap().clone();

@@ -137,13 +137,14 @@ impl Bench {
     pub fn steady(&mut self, scene: &str, changes: &[String]) -> Result<Finished, CaseError> {
         let (mut finished, end) = self.run(scene, changes)?;
         let name = format!("{scene} {}", changes.join(" "));
-        if end == End::Steady {
+        if matches!(end, End::Steady { .. }) {
             let settled = Settled::of(name, &finished)?;
             self.settled.push(settled.clone());
             finished.settled = Some(settled);
             return Ok(finished);
         }
-        Err(not_steady(name, &finished, changes))
+        let left = if let End::NotSteady { left } = end { left } else { None };
+        Err(not_steady(name, &finished, changes, left))
     }
 
     /// Runs a scene of `golden/` to whatever end it has. Errors if it cannot be run.
@@ -203,8 +204,13 @@ impl Finished {
     }
 }
 
-/// The error of a run that its limit has ended: what was still changing, and who sets the limit.
-fn not_steady(scene: String, finished: &Finished, changes: &[String]) -> CaseError {
+/// The error of a run that its limit has ended: what was still to go, and who sets the limit.
+fn not_steady(
+    scene: String,
+    finished: &Finished,
+    changes: &[String],
+    left: Option<f64>,
+) -> CaseError {
     let Some(steady) = &finished.scene.stop.steady else { return CaseError::NoCriterion(scene) };
     let key = limiting_key(&finished.scene);
     let is_ours = changes.iter().any(|change| change.starts_with(&format!("{key}=")));
@@ -214,16 +220,17 @@ fn not_steady(scene: String, finished: &Finished, changes: &[String]) -> CaseErr
         "of the scene file"
     };
     let limit = format!("the `{key}` {whose}");
-    let change = match Settled::of(scene.clone(), finished) {
-        Ok(settled) => format!("has changed by {:.1e} of itself in the last row", settled.change),
-        Err(_) => "has fewer than three rows, or is zero".to_owned(),
+    let to_go = match left {
+        Some(left) if left.is_finite() => format!("has {left:.1e} of itself still to go"),
+        Some(_) => "changes without slowing down".to_owned(),
+        None => "has fewer than four rows after the first, or is zero".to_owned(),
     };
     CaseError::NotSteady {
         scene,
         steps: finished.engine.steps(),
         limit,
         column: steady.column_name(&finished.scene.records).to_owned(),
-        change,
+        to_go,
         tolerance: steady.tolerance,
     }
 }

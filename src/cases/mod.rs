@@ -188,10 +188,9 @@ pub enum CaseError {
     Step(#[from] EngineStop),
     /// A run ended at its limit of time: its result is not steady and cannot be judged.
     #[error(
-        "{scene}: not steady after {steps} steps, which is all that {limit} allows: {column} {change}; steady is \
-         {tolerance:e} of itself or less (stop.steady.tolerance), three times in a row. Raise {limit}; where that \
-         change no longer falls from row to row, the flow does not settle or rounding holds it there, and only a \
-         larger tolerance ends the run"
+        "{scene}: not steady after {steps} steps, which is all that {limit} allows: {column} {to_go}; steady is \
+         {tolerance:e} of itself or less (stop.steady.tolerance). Raise {limit}; where what is to go no longer \
+         falls, the flow does not settle or rounding holds it there, and only a larger tolerance ends the run"
     )]
     NotSteady {
         /// The scene, with its changes.
@@ -202,9 +201,9 @@ pub enum CaseError {
         limit: String,
         /// The column that should have become steady.
         column: String,
-        /// By how much its last row has changed it, in words.
-        change: String,
-        /// The relative change from row to row that is allowed.
+        /// How far it still has to go, in words.
+        to_go: String,
+        /// The relative distance from the final value that is allowed.
         tolerance: f64,
     },
     /// A case asks for a steady state of a scene that has no criterion for one.

@@ -53,7 +53,7 @@ pub struct Bed {
     pub side_cells: u32,
     /// Relaxation time.
     pub tau: f64,
-    /// Relative change of the superficial velocity from row to row below which it is steady.
+    /// What the superficial velocity may still have to go, relative, when it is steady.
     pub tolerance: f64,
 }
 

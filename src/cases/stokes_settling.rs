@@ -3,8 +3,8 @@
 use psmrt_report::{Axis, Figure, Series};
 
 use super::found::found;
-use super::steadiness::drift;
 use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use crate::run::steady::History;
 
 /// Slow settling.
 pub const CASE: Case = Case {
@@ -88,7 +88,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         });
         claims.push(Claim {
             what: format!("{engine}: what the velocity still had to go at the end"),
-            measured: drift(&own).map_or(f64::NAN, |(_, left)| left),
+            measured: History::of(&own).left().unwrap_or(f64::NAN),
             allowed: 0.0..=0.01,
             why: "steady but for the places of the sphere between the nodes, worth some 0.1 %; a tenth of what its claim \
                   allows",

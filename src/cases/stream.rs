@@ -25,7 +25,7 @@ pub struct Stream {
     pub tau: f64,
     /// Width of the box in diameters; its length is twice that.
     pub width: f64,
-    /// Relative change of the force from row to row below which it is steady.
+    /// What the force may still have to go, relative, when it is steady.
     pub tolerance: f64,
 }
 

@@ -1,13 +1,13 @@
 //! `psmrt check`: what a scene will be, cost and risk, before it runs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::json;
 
 use super::say::say;
 use super::{CommandError, engine};
-use crate::estimate::{calibrate, models, numbers, warnings};
+use crate::estimate::{calibrate, disk, models, numbers, warnings};
 use crate::scene::Scene;
 
 /// What `psmrt check` is asked for.
@@ -28,7 +28,9 @@ const CALIBRATION: Duration = Duration::from_millis(500);
 pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
     let mut engine = engine(&scene, &request.scene, false)?;
-    let (numbers, models, warnings) = (numbers(&scene), models(&scene), warnings(&scene));
+    let (numbers, models, mut warnings) = (numbers(&scene), models(&scene), warnings(&scene));
+    // A run writes to a folder below this one, unless it is told otherwise.
+    warnings.extend(disk::warnings(&scene, Path::new(".")));
     let speed = calibrate(&scene, engine.as_mut(), CALIBRATION);
     if request.json {
         let engines = speed.map(|[updates, seconds]| {

@@ -13,6 +13,7 @@ use crate::output::names::COMPARISON;
 use crate::output::records::profile_rows;
 use crate::output::{atomic, plot};
 use crate::scene::Scene;
+use crate::scene::check::records::middle;
 
 const COLUMNS: [Column; 3] = [
     Column::new("position", "m"),
@@ -27,7 +28,7 @@ pub(super) fn compare(
     engine: &dyn Engine,
     folder: &Path,
 ) -> Result<Comparison, CommandError> {
-    let middle = scene.setup.domain.cells().map(|n| n / 2);
+    let middle = middle(&scene.setup.domain);
     let rows = profile_rows(scene, engine, exact.across, middle);
     let along: Vec<f64> = rows.iter().map(|row| row[2 + exact.along]).collect();
     let comparison = Comparison::new(exact, &along);

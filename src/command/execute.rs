@@ -11,17 +11,17 @@ use serde_json::{Value, json};
 
 use super::progress::Progress as ProgressBar;
 use super::say::{say, tell};
-use super::{CommandError, comparison, info, profile, write};
+use super::{CommandError, comparison, info, profile, summary, write};
 use crate::checkpoint::Progress;
 use crate::engine::Engine;
-use crate::estimate::{Warning, warnings};
+use crate::estimate::{Warning, disk, warnings};
 use crate::output::folder::RunFolder;
 use crate::output::{atomic, csv, grain_plots, names, plot};
 use crate::run::{End, run as run_scene};
 use crate::scene::{Scene, What};
 
 /// The states of runs that there is nothing to go on with.
-const FINISHED: [&str; 2] = ["steady", "limit"];
+const FINISHED: [&str; 3] = ["steady", "not steady", "limit"];
 
 /// Exit code after a second interruption, which does not wait for the state to be saved.
 const INTERRUPTED: i32 = 130;
@@ -36,25 +36,25 @@ pub(super) fn execute(
 ) -> Result<(), CommandError> {
     let (start, first_step) = (Instant::now(), engine.steps());
     if !json {
-        warn(scene);
+        warn(scene, folder.path());
     }
-    let facts = |engine: &dyn Engine, state: &str| {
-        write_facts(scene, engine, folder, first_step, start, state)
+    let facts = |engine: &dyn Engine, state: &str, end: Option<End>| {
+        write_facts(scene, engine, folder, (first_step, start), (state, end))
     };
-    facts(engine, "running")?;
+    facts(engine, "running", None)?;
     let mut progress = ProgressBar::new(scene, json, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
     drop(progress);
     let end = match end {
         Ok(End::Interrupted) => {
-            facts(engine, "interrupted")?;
+            facts(engine, "interrupted", None)?;
             let folder = folder.path().display().to_string();
             return Err(CommandError::Interrupted { folder });
         }
         Ok(end) => end,
         Err(error) => {
             // A run that failed on a full disk should say that, not that its facts cannot be written.
-            let _ = facts(engine, "failed");
+            let _ = facts(engine, "failed", None);
             return Err(error.into());
         }
     };
@@ -65,7 +65,12 @@ pub(super) fn execute(
     };
     draw_records(scene, path)?;
     // These come last: a run that says that it has finished has all its files.
-    let facts = facts(engine, if end == End::Steady { "steady" } else { "limit" })?;
+    let (word, verdict) = match end {
+        End::Steady { .. } => ("steady", Ok(())),
+        End::NotSteady { .. } => ("not steady", Err(CommandError::NotSteady)),
+        End::Limit | End::Interrupted => ("limit", Ok(())),
+    };
+    let facts = facts(engine, word, Some(end))?;
     if json {
         let comparison = found.as_ref().map(comparison::to_json);
         let profile = engine.profile().map(|profile| profile::to_json(&profile));
@@ -73,7 +78,7 @@ pub(super) fn execute(
             "folder": path.display().to_string(), "run": facts, "comparison": comparison, "profile": profile,
         });
         say(&all.to_string());
-        return Ok(());
+        return verdict;
     }
     let steps = engine.steps();
     let seconds = start.elapsed().as_secs_f64();
@@ -81,7 +86,11 @@ pub(super) fn execute(
     say(&format!(
         "{} after {steps} steps ({:.4e} s); {seconds:.2} s of computing, {:.2} million cell updates \
          a second",
-        if end == End::Steady { "steady" } else { "at its limit" },
+        match end {
+            End::Steady { .. } => "steady",
+            End::NotSteady { .. } => "at its limit and NOT steady",
+            End::Limit | End::Interrupted => "at its limit",
+        },
         steps as f64 * scene.units.si_dt,
         updates / seconds / 1e6
     ));
@@ -91,15 +100,29 @@ pub(super) fn execute(
     if let (Some(found), Some(exact)) = (&found, &scene.exact) {
         say(&comparison::to_text(exact, found));
     }
+    let last = summary::to_text(scene, engine);
+    if !last.is_empty() {
+        say(&format!("at the end:\n{last}"));
+    }
+    if let Some(trouble) = summary::not_steady(scene, engine, end) {
+        say(&trouble);
+    }
     say(&format!("results in {}", path.display()));
-    Ok(())
+    verdict
 }
 
 /// Says beforehand what looks risky, a line each; `run.json` and `--json` have it too.
-fn warn(scene: &Scene) {
-    for Warning { reason, remedy } in warnings(scene) {
+fn warn(scene: &Scene, folder: &Path) {
+    for Warning { reason, remedy } in all_warnings(scene, folder) {
         tell(&format!("warning: {reason} (help: {remedy})"));
     }
+}
+
+/// What looks risky about the scene, and about where it writes.
+fn all_warnings(scene: &Scene, folder: &Path) -> Vec<Warning> {
+    let mut all = warnings(scene);
+    all.extend(disk::warnings(scene, folder));
+    all
 }
 
 /// Draws the records that a curve can show.
@@ -162,9 +185,8 @@ fn write_facts(
     scene: &Scene,
     engine: &dyn Engine,
     folder: &RunFolder,
-    first_step: u64,
-    start: Instant,
-    state: &str,
+    (first_step, start): (u64, Instant),
+    (state, end): (&str, Option<End>),
 ) -> Result<Value, CommandError> {
     let unix_time =
         SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |duration| duration.as_secs());
@@ -182,7 +204,13 @@ fn write_facts(
         "dt_s": scene.units.si_dt,
         "dx_m": scene.units.si_dx,
         "tau": scene.setup.collision.tau(),
-        "warnings": warnings(scene),
+        "warnings": all_warnings(scene, folder.path()),
+        "steady": end.map(|end| summary::steady(scene, engine, end)),
+        "results": end.map(|_| summary::results(scene, engine)),
+        "files": {
+            "csv": "SI units, in the first line of each table; box: means over all cells, solids included",
+            "npy": "axes z, y, x and, of vectors, component (x, y, z); cell centres; SI units",
+        },
         "program": info::program(),
         "machine": info::machine(),
     });

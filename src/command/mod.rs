@@ -18,6 +18,7 @@ pub mod resume;
 pub mod run;
 pub mod say;
 pub mod stability;
+mod summary;
 pub mod tradeoff;
 
 use std::path::Path;
@@ -99,6 +100,9 @@ pub enum CommandError {
     /// A candidate with wrong answers; the verdict has said which.
     #[error("the candidate failed")]
     CandidateFailed,
+    /// The run has reached its limit before its flow was steady; its summary has said so.
+    #[error("the run is not steady")]
+    NotSteady,
     /// A table of a run is not the one that its checkpoint knows, and perhaps an older checkpoint fits.
     #[error("{error}{older}")]
     Table {
@@ -124,8 +128,8 @@ impl CommandError {
         }
     }
 
-    /// The exit code: 2 for what the user can put right in the scene or the command line, 130 for
-    /// an interruption, else 1.
+    /// The exit code: 2 for what the user can put right in the scene or the command line, 3 for a run that
+    /// is not steady at its limit, 130 for an interruption, else 1.
     pub fn exit_code(&self) -> u8 {
         match self {
             CommandError::Scene(_)
@@ -144,6 +148,7 @@ impl CommandError {
             | CommandError::Stability(_)
             | CommandError::ClaimsFail
             | CommandError::GoldenDiffers => 1,
+            CommandError::NotSteady => 3,
             CommandError::Interrupted { .. } => 130,
         }
     }

@@ -62,12 +62,16 @@ impl Drop for Progress {
 }
 
 impl Watcher for Progress {
-    fn watch(&mut self, steps: u64, change: Option<f64>) -> bool {
+    fn watch(&mut self, steps: u64, left: Option<f64>) -> bool {
         let start_steps = *self.start_steps.get_or_insert(steps);
         let seconds = self.start.elapsed().as_secs_f64().max(1e-3);
         let rate = ((steps - start_steps) * self.cells) as f64 / seconds;
-        let change = change.map_or(String::new(), |change| format!(", change {change:.1e}"));
-        let message = format!("{:.2} million cells/s{change}", rate / 1e6);
+        let to_go = match left {
+            Some(left) if left.is_finite() => format!(", {left:.1e} to go until steady"),
+            Some(_) => ", not slowing down".to_owned(),
+            None => String::new(),
+        };
+        let message = format!("{:.2} million cells/s{to_go}", rate / 1e6);
         if let Some(bar) = &self.bar {
             bar.set_position(steps);
             bar.set_message(message);

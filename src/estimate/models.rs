@@ -6,7 +6,7 @@ use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 
 use super::grains;
-use crate::scene::{Scene, What};
+use crate::scene::{Rhythm, Scene, What};
 
 /// The models that are on, each with the reason.
 pub fn models(scene: &Scene) -> Vec<String> {
@@ -61,7 +61,11 @@ pub fn models(scene: &Scene) -> Vec<String> {
             What::Grains => "grains",
             What::GrainMeans => "means over the free grains",
         };
-        models.push(format!("record {}: {what}, {}", record.name, record.rhythm));
+        let interval = match record.rhythm {
+            Rhythm::Every(steps) => format!(" ({:.4e} s)", steps as f64 * scene.units.si_dt),
+            Rhythm::AtEnd => String::new(),
+        };
+        models.push(format!("record {}: {what}, {}{interval}", record.name, record.rhythm));
     }
     models
 }

@@ -69,6 +69,9 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
     let parts: Vec<_> = memory::parts(scene).iter().map(|part| part.what).collect();
     let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
     numbers.push(number("memory", mib, "MiB", format!("{}; engine {engine}", parts.join(", "))));
+    let written = super::disk::bytes(scene);
+    let note = "of records and checkpoints, at most";
+    numbers.push(number("disk", written / f64::from(1 << 20), "MiB", note));
     let (steps, si_time) = (scene.stop.steps as f64, scene.stop.steps as f64 * units.si_dt);
     numbers.push(number("steps", steps, "", format!("at most; {si_time:.4e} s")));
     numbers

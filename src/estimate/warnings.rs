@@ -8,6 +8,7 @@ mod ends;
 mod faces;
 mod gravity;
 mod lists;
+mod prescribed;
 mod records;
 mod scales;
 pub(crate) mod stability;
@@ -26,6 +27,7 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     gravity::warnings,
     density::warnings,
     contacts::warnings,
+    prescribed::warnings,
     stability::warnings,
     lists::warnings,
     records::warnings,

@@ -1,6 +1,7 @@
 //! What a run leaves behind: one file a format.
 
 pub mod atomic;
+pub mod between;
 pub mod csv;
 pub mod folder;
 pub mod grain_list;

@@ -65,5 +65,11 @@ pub fn line_record(title: &str, axis: usize, rows: &[Vec<f64>]) -> Figure {
     for (number, name) in ["x", "y", "z"].into_iter().enumerate() {
         figure = figure.with(Series::line_points(format!("velocity {name}"), along(4 + number)));
     }
-    figure.note(format!("after {last} steps"))
+    // The place of the line comes after the velocities.
+    let place = |other: usize| -> Option<String> {
+        let si_place = rows.last()?.get(7 + other)?;
+        Some(format!("{} = {:.4} mm", ["x", "y", "z"][other], 1e3 * si_place))
+    };
+    let place: Vec<_> = (0..3).filter(|&other| other != axis).filter_map(place).collect();
+    figure.note(format!("along {}; after {last} steps", place.join(", ")))
 }

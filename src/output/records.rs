@@ -7,7 +7,7 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Shape;
 
 use super::csv::{Column, Mark, Table, Value};
-use super::{grain_means, names, snapshots};
+use super::{between, grain_means, names, snapshots};
 use crate::engine::{CellState, Engine};
 use crate::scene::{Record, Scene, What};
 
@@ -21,12 +21,15 @@ pub const BOX_COLUMNS: [Column; 5] = [
 ];
 
 /// The columns of a record of kind `profile`, after time and step.
-const PROFILE_COLUMNS: [Column; 5] = [
+const PROFILE_COLUMNS: [Column; 8] = [
     Column::new("position", "m"),
     Column::new("pressure", "Pa"),
     Column::new("velocity_x", "m/s"),
     Column::new("velocity_y", "m/s"),
     Column::new("velocity_z", "m/s"),
+    Column::new("x", "m"),
+    Column::new("y", "m"),
+    Column::new("z", "m"),
 ];
 
 /// The columns of a record of kind `loads`, after time and step.
@@ -164,7 +167,7 @@ fn named<T>(path: &Path, result: io::Result<T>) -> io::Result<T> {
 }
 
 /// The columns of a record that is a table.
-fn columns(record: &Record) -> Option<Vec<Column>> {
+pub fn columns(record: &Record) -> Option<Vec<Column>> {
     let own: &[Column] = match record.what {
         What::Box => &BOX_COLUMNS,
         What::Profile { .. } => &PROFILE_COLUMNS,
@@ -179,8 +182,10 @@ fn columns(record: &Record) -> Option<Vec<Column>> {
 /// The values of [`BOX_COLUMNS`].
 pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
     let (means, units) = (engine.box_means(), &scene.units);
-    // The superficial velocity is the mass flux over the reference density, 1.
-    let superficial = means.mass_flux * units.si_velocity();
+    // The superficial velocity is the mass flux over the reference density, 1. That of a collision, which cells
+    // with solids in them brake, does not exist before the first one: the start has the flux that was set.
+    let flux = if engine.steps() == 0 { flux_at_start(scene, engine) } else { means.mass_flux };
+    let superficial = flux * units.si_velocity();
     [
         means.density * units.si_density,
         superficial.x,
@@ -190,33 +195,46 @@ pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
     ]
 }
 
+/// Mean of the momentum with half a step of the body force, `j + G/2`.
+fn flux_at_start(scene: &Scene, engine: &dyn Engine) -> Vec3 {
+    let count = scene.setup.domain.cell_count();
+    let [nx, ny, _] = scene.setup.domain.cells();
+    let planes = (0..count).step_by(nx * ny);
+    let of_plane = |first: usize| -> Vec3 {
+        let numbers: Vec<usize> = (first..first + nx * ny).collect();
+        engine.cells(&numbers).iter().map(|cell| cell.density * cell.velocity).sum()
+    };
+    planes.map(of_plane).sum::<Vec3>() / count as f64
+}
+
 /// The values of [`FORCE_COLUMNS`], summed over all grains.
 pub fn force_row(scene: &Scene, engine: &dyn Engine) -> [f64; 3] {
     let force: Vec3 = engine.loads().iter().map(|load| load.force).sum();
     (force * scene.units.si_force()).into()
 }
 
-/// The values of the columns of a profile, cell by cell.
+/// The values of the columns of a profile along `axis` through a point (in cells): at each centre of a cell along
+/// the axis, first that place, at the end the point.
 pub fn profile_rows(
     scene: &Scene,
     engine: &dyn Engine,
     axis: usize,
-    through: [usize; 3],
-) -> Vec<[f64; 5]> {
+    through: [f64; 3],
+) -> Vec<[f64; 8]> {
     let (domain, units) = (&scene.setup.domain, &scene.units);
-    let cell = |i: usize| {
-        let mut cell = through;
-        cell[axis] = i;
-        domain.index(cell)
-    };
-    let line: Vec<usize> = (0..domain.cells()[axis]).map(cell).collect();
+    let cell = |i: usize| std::array::from_fn(|other| if other == axis { i } else { 0 });
+    let line: Vec<[usize; 3]> = (0..domain.cells()[axis]).map(cell).collect();
     let row = |(i, state): (usize, CellState)| {
         let velocity = state.velocity * units.si_velocity();
         let position = (i as f64 + 0.5) * units.si_dx;
         let pressure = units.si_gauge_pressure(state.density);
-        [position, pressure, velocity.x, velocity.y, velocity.z]
+        let mut point = through.map(|place| place * units.si_dx);
+        point[axis] = position;
+        let [x, y, z] = point;
+        [position, pressure, velocity.x, velocity.y, velocity.z, x, y, z]
     };
-    engine.cells(&line).into_iter().enumerate().map(row).collect()
+    let states = between::states(engine, domain, between::line(axis, through), &line);
+    states.into_iter().enumerate().map(row).collect()
 }
 
 /// The values of the columns of a record of loads, grain by grain.

@@ -3,6 +3,7 @@
 use psmrt_reference::solids::Shape;
 use psmrt_report::{Axis, Map};
 
+use super::between;
 use crate::engine::{CellState, Engine};
 use crate::scene::format_run::Quantity;
 use crate::scene::{Scene, Units};
@@ -12,46 +13,52 @@ const MOSTLY_SOLID: f64 = 0.5;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The plane number `plane` along `normal`.
+/// The plane at `at` (in cells) along `normal`; `si_range` says where its colours end, if not at its values.
 pub fn map(
     scene: &Scene,
     engine: &dyn Engine,
-    normal: usize,
-    plane: usize,
+    (normal, at): (usize, f64),
     quantity: Quantity,
+    si_range: Option<[f64; 2]>,
 ) -> Map {
     let (domain, units) = (&scene.setup.domain, &scene.units);
     let cells = domain.cells();
     let [right, up] = [[1, 2], [0, 2], [0, 1]][normal];
-    let mut numbers = Vec::with_capacity(cells[right] * cells[up]);
+    let mut places = Vec::with_capacity(cells[right] * cells[up]);
     for j in 0..cells[up] {
         for i in 0..cells[right] {
-            let mut cell = [plane; 3];
+            let mut cell = [0; 3];
             (cell[right], cell[up]) = (i, j);
-            numbers.push(domain.index(cell));
+            places.push(cell);
         }
     }
-    let (label, value) = words(quantity);
+    let states = between::states(engine, domain, between::plane(normal, at), &places);
+    let (label, si_factor, value) = words(quantity);
     let shown = |cell: &CellState| {
-        (cell.solid_fraction <= MOSTLY_SOLID).then(|| value(units, quantity, cell))
+        (cell.solid_fraction <= MOSTLY_SOLID).then(|| si_factor * value(units, quantity, cell))
     };
     let axis = |axis: usize| {
         let end = cells[axis] as f64 * units.si_dx * 1e3;
         Axis::linear(format!("{} (mm)", AXES[axis])).range(0.0, end)
     };
-    let place_in_cells = plane as f64 + 0.5;
-    let place = place_in_cells * units.si_dx * 1e3;
+    let place = at * units.si_dx * 1e3;
+    let colours = match si_range {
+        None => Axis::linear(label),
+        Some([low, high]) => {
+            Axis::linear(format!("{label}, fixed range")).range(si_factor * low, si_factor * high)
+        }
+    };
     Map {
         title: scene.title.clone(),
         x: axis(right),
         y: axis(up),
-        value: Axis::linear(label),
+        value: colours,
         columns: cells[right],
-        circles: outlines(scene, engine, normal, place_in_cells)
+        circles: outlines(scene, engine, normal, at)
             .into_iter()
             .map(|circle| circle.map(|along| along * units.si_dx * 1e3))
             .collect(),
-        values: engine.cells(&numbers).iter().map(shown).collect(),
+        values: states.iter().map(shown).collect(),
         note: format!(
             "plane {} = {place:.4} mm, after {:.4e} s",
             AXES[normal],
@@ -93,10 +100,10 @@ fn outlines(scene: &Scene, engine: &dyn Engine, normal: usize, place: f64) -> Ve
 
 type Value = fn(&Units, Quantity, &CellState) -> f64;
 
-/// The label of the scale, and the value of a cell.
-fn words(quantity: Quantity) -> (&'static str, Value) {
+/// The label of the scale, its unit over that of SI, and the value of a cell in SI units.
+fn words(quantity: Quantity) -> (&'static str, f64, Value) {
     let velocity: Value = |units, quantity, cell| {
-        let si_velocity = cell.velocity * units.si_velocity() * 1e3;
+        let si_velocity = cell.velocity * units.si_velocity();
         match quantity {
             Quantity::VelocityX => si_velocity.x,
             Quantity::VelocityY => si_velocity.y,
@@ -105,12 +112,12 @@ fn words(quantity: Quantity) -> (&'static str, Value) {
         }
     };
     match quantity {
-        Quantity::Speed => ("speed (mm/s)", velocity),
+        Quantity::Speed => ("speed (mm/s)", 1e3, velocity),
         Quantity::Pressure => {
-            ("pressure (Pa)", |units, _, cell| units.si_gauge_pressure(cell.density))
+            ("pressure (Pa)", 1.0, |units, _, cell| units.si_gauge_pressure(cell.density))
         }
-        Quantity::VelocityX => ("velocity x (mm/s)", velocity),
-        Quantity::VelocityY => ("velocity y (mm/s)", velocity),
-        Quantity::VelocityZ => ("velocity z (mm/s)", velocity),
+        Quantity::VelocityX => ("velocity x (mm/s)", 1e3, velocity),
+        Quantity::VelocityY => ("velocity y (mm/s)", 1e3, velocity),
+        Quantity::VelocityZ => ("velocity z (mm/s)", 1e3, velocity),
     }
 }

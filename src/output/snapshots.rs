@@ -22,9 +22,9 @@ pub fn take(record: &Record, scene: &Scene, engine: &dyn Engine, folder: &Path) 
             grains(scene, engine, &folder_of_files.join(file(name, step, "vtp")))?;
             "vtp"
         }
-        What::Slice { normal, plane, quantity } => {
+        What::Slice { normal, at, quantity, si_range } => {
             let path = folder_of_files.join(file(name, step, "svg"));
-            let map = super::slice::map(scene, engine, *normal, *plane, *quantity);
+            let map = super::slice::map(scene, engine, (*normal, *at), *quantity, *si_range);
             let svg = psmrt_report::render_map(&map).map_err(io::Error::other)?;
             return atomic::write(&path, |out| out.write_all(svg.as_bytes()));
         }

@@ -12,24 +12,32 @@ use super::format::Triple;
 pub struct RecordSection {
     /// Name of the record and of its file: letters, digits, `-` and `_`.
     pub name: String,
-    /// `box` (means over the box), `profile` (a line of cells), `loads` (place, motion, force and
+    /// `box` (means over the box: the superficial velocity is the mass flux over the fluid's density, cells in
+    /// grains included: the mean of their momentum before and after a collision; that of the first row is what
+    /// the flow starts with), `profile` (values along a line), `loads` (place, motion, force and
     /// torque of each grain), `grain_means` (means over the free grains), `slice` (a picture of a
     /// plane), `fields` (all cells) or `grains` (all grains, for ParaView).
     pub kind: RecordKind,
-    /// Time between rows, s.
+    /// Time between rows, s: rounded to whole time steps, at least one.
     pub every: Option<f64>,
     /// Steps between rows.
     pub every_steps: Option<i64>,
     /// With `profile`: the axis along which the line runs; with `slice`: the axis that the plane is
     /// normal to.
     pub axis: Option<AxisName>,
-    /// With `profile` and `slice`: a point on the line or plane, m; the middle of the box where
-    /// absent.
+    /// With `profile` and `slice`: a point on the line or plane, m; the middle of the box where absent. Between
+    /// the centres of cells (in the middle of an even number of them, say) values are interpolated linearly from
+    /// the two or four nearest lines or planes of cells, those in grains included, across periodic faces too;
+    /// nearer than half a cell to other faces the two nearest ones are continued linearly.
     pub point: Option<Triple>,
     /// With `slice`: what the colours show; `speed` where absent.
     pub quantity: Option<Quantity>,
+    /// With `slice`: the values at the lower and the upper end of the colours, in m/s or Pa, the same for all
+    /// pictures of the record; values beyond have the colour of the end. Where absent each picture has its own.
+    pub range: Option<[f64; 2]>,
     /// With `fields`: `vti` (ParaView, single precision), `npy` (NumPy, double precision) or both;
-    /// `vti` where absent.
+    /// `vti` where absent. The axes of an `npy` array are z, y, x and, of vectors, component: `velocity[k, j, i, 0]`
+    /// is the velocity along x at x = (i + 1/2) dx, y = (j + 1/2) dx, z = (k + 1/2) dx, m/s; `pressure` is in Pa.
     pub formats: Option<Vec<FieldFormat>>,
 }
 
@@ -104,8 +112,11 @@ pub struct StopSection {
     pub steady: Option<SteadySection>,
 }
 
-/// Steady: three rows of a record in a row, each of which changes a column by less than
-/// `tolerance` of its value.
+/// Steady: a column of a record is within `tolerance` of the value it goes to. That is estimated from the last
+/// half of the time since the start, however often rows are taken: an approach that falls by the same factor over
+/// equal times goes on falling so; what goes to and fro may do so again as far as in the last quarter. The estimate
+/// must stay within the tolerance for an eighth of the time. A run that ends at `time` or `steps` sooner says
+/// that it is not steady, and by how much; its exit code is 3.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SteadySection {
@@ -114,7 +125,7 @@ pub struct SteadySection {
     /// One of its columns, for example `superficial_velocity_x`; of `loads` a force, summed over all
     /// grains.
     pub column: String,
-    /// Largest relative change from row to row, in (0, 1).
+    /// Largest distance from the final value, as a share of the value, in (0, 1).
     pub tolerance: f64,
 }
 

@@ -16,6 +16,7 @@ use crate::exact::Comparison;
 use crate::kernel::Gpu;
 use crate::output::records::profile_rows;
 use crate::run::{End, RunError};
+use crate::scene::check::records::middle;
 use std::sync::Arc;
 
 /// Bytes that an engine keeps per cell for populations: two copies of 19 of 8 or 4 bytes.
@@ -94,7 +95,7 @@ impl Runner {
             Err(error) => return Err(error),
         };
         // A grain in a shaft is stopped after a time that its flow needs; all else must be steady.
-        let steady = end == End::Steady || knobs.flow == Flow::Settling;
+        let steady = matches!(end, End::Steady { .. }) || knobs.flow == Flow::Settling;
         row.end = if steady { "steady" } else { "limit" }.to_owned();
         row.cells = finished.scene.setup.domain.cell_count() as u64;
         row.steps = finished.engine.steps();
@@ -116,7 +117,7 @@ fn error(knobs: &Knobs, drag: f64, run: &Finished) -> Result<f64, CaseError> {
     match knobs.flow {
         Flow::Poiseuille => {
             let exact = run.scene.exact.as_ref().ok_or_else(|| missing("no exact solution"))?;
-            let middle = setup.domain.cells().map(|n| n / 2);
+            let middle = middle(&setup.domain);
             let profile = profile_rows(&run.scene, run.engine.as_ref(), exact.across, middle);
             let along: Vec<f64> = profile.iter().map(|row| row[2 + exact.along]).collect();
             Ok(Comparison::new(exact, &along).relative_l2)

@@ -118,8 +118,8 @@ fn poiseuille(knobs: &Knobs) -> (&'static str, Vec<String>) {
     ("poiseuille", changes)
 }
 
-/// Relative change from row to row below which a run is steady; single precision has noise above
-/// 1e-6, and emulated storage never becomes quiet: it runs to its limit.
+/// What may still be to go, relative, when a run is steady; single precision has noise above 1e-6, and
+/// emulated storage never becomes steady: it runs to its limit.
 fn quiet(knobs: &Knobs, wanted: f64) -> f64 {
     match knobs.storage {
         _ if knobs.is_emulated() => 1e-9,

@@ -2,11 +2,15 @@
 
 use crate::domain::{Domain, Face};
 use crate::grains::grain::{Grain, sphere_volume};
+use crate::grains::hold;
 use crate::grains::plane::Plane;
 use crate::grains::setup::{GrainError, GrainSetup};
 use crate::grains::system::{GrainState, GrainSystem};
 use crate::lattice::Vec3;
 use crate::solids::{Load, Shape, Solid};
+
+/// Fastest grain, cells per time step: what the guard of the fluid allows the fluid.
+const FASTEST: f64 = 0.5;
 
 /// What becomes of the inertia of the fluid inside a grain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -112,13 +116,37 @@ impl FreeGrains {
     }
 
     /// Moves the grains by one step under `loads`, the fluid's load on each during its last step.
-    /// Returns the number of sub-steps. Errors if the motion breaks down.
+    /// Returns the number of sub-steps. Errors if the motion breaks down or a contact does not hold.
     pub fn step(&mut self, loads: &[Load]) -> Result<u32, GrainError> {
         let outside = self.outside_loads(loads);
         for ((last, grain), load) in self.last.iter_mut().zip(self.grains.grains()).zip(loads) {
             *last = LastStep { velocity: grain.velocity, spin: grain.spin, load: *load };
         }
-        self.grains.step(1.0, &outside)
+        let substeps = self.grains.step(1.0, &outside)?;
+        if let Some(sunk) = hold::deepest(&self.grains) {
+            return Err(sunk.into());
+        }
+        self.check_thrown(&outside)?;
+        Ok(substeps)
+    }
+
+    /// Errors if a contact has thrown a grain: it is past [`FASTEST`], and got more of its speed in the last
+    /// step from contacts than from `outside`.
+    fn check_thrown(&self, outside: &[Load]) -> Result<(), GrainError> {
+        for (number, grain) in self.grains.grains().iter().enumerate() {
+            let speed = grain.velocity.norm();
+            if grain.held || speed <= FASTEST {
+                continue;
+            }
+            // v - v_(n-1) = F/m + what contacts have given
+            let pushed = outside[number].force / grain.mass;
+            let gained = (grain.velocity - self.last[number].velocity - pushed).norm();
+            if gained > pushed.norm() {
+                let limit = FASTEST;
+                return Err(GrainError::Thrown { grain: number, speed, gained, limit });
+            }
+        }
+        Ok(())
     }
 
     /// What acts on each grain besides contacts in the coming step: the fluid's load, the inertia of

@@ -1,12 +1,34 @@
-//! Warnings of runs that leave nothing behind.
+//! Warnings of runs that leave nothing behind, or rows at other times than those asked for.
 
 use super::warning;
 use crate::estimate::Warning;
-use crate::scene::Scene;
+use crate::scene::{Rhythm, Scene};
+
+/// Rows further apart or closer than asked for by this share are told.
+const OFF: f64 = 0.01;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     if scene.records.is_empty() && scene.exact.is_none() {
         return vec![warning("nothing is recorded", "add [[records]]")];
     }
-    Vec::new()
+    let mut warnings = Vec::new();
+    for record in &scene.records {
+        let (Rhythm::Every(steps), Some(si_every)) = (record.rhythm, record.si_every) else {
+            continue;
+        };
+        let si_dt = scene.units.si_dt;
+        let si_taken = steps as f64 * si_dt;
+        if (si_taken / si_every - 1.0).abs() <= OFF {
+            continue;
+        }
+        warnings.push(warning(
+            format!(
+                "record {}: `every` = {si_every:e} s is {:.2} time steps; rows are taken every {steps}, {si_taken:.4e} s",
+                record.name,
+                si_every / si_dt
+            ),
+            "give `every_steps`, a longer `every`, or a time step that divides it (`time.dt`)",
+        ));
+    }
+    warnings
 }

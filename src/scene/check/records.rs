@@ -21,6 +21,8 @@ pub struct Record {
     pub what: What,
     /// How often it is taken.
     pub rhythm: Rhythm,
+    /// The time between rows that the scene asks for, if it gives one, s.
+    pub si_every: Option<f64>,
 }
 
 /// What a record holds.
@@ -28,12 +30,12 @@ pub struct Record {
 pub enum What {
     /// Means over the box.
     Box,
-    /// A line of cells along `axis` through the cell `through`.
+    /// A line along `axis` through the point `through`.
     Profile {
         /// 0, 1 or 2.
         axis: usize,
-        /// A cell on the line.
-        through: [usize; 3],
+        /// A point on the line, in cells.
+        through: [f64; 3],
     },
     /// Force and torque on each grain.
     Loads,
@@ -42,14 +44,16 @@ pub enum What {
         /// File formats, at least one.
         formats: Vec<FieldFormat>,
     },
-    /// A picture of the cells in a plane, each time.
+    /// A picture of a plane, each time.
     Slice {
         /// Normal of the plane: 0, 1 or 2.
         normal: usize,
-        /// Number of the plane along the normal.
-        plane: usize,
+        /// Place of the plane along the normal, in cells.
+        at: f64,
         /// What the colours show.
         quantity: Quantity,
+        /// The values at the ends of the scale of colours, SI units; those of each picture where `None`.
+        si_range: Option<[f64; 2]>,
     },
     /// All grains, a file each time.
     Grains,
@@ -118,7 +122,7 @@ pub(super) fn records(
             }
         };
         let what = what(section, &at, setup, free, units)?;
-        records.push(Record { name: section.name.clone(), what, rhythm });
+        records.push(Record { name: section.name.clone(), what, rhythm, si_every: section.every });
     }
     Ok(records)
 }
@@ -151,6 +155,7 @@ fn what(
     }
     if section.kind != RecordKind::Slice {
         absent(&at("quantity"), section.quantity.as_ref(), "records of kind `slice`")?;
+        absent(&at("range"), section.range.as_ref(), "records of kind `slice`")?;
     }
     let axis = || {
         let remedy = "add `axis = \"x\"`, \"y\" or \"z\"";
@@ -158,8 +163,8 @@ fn what(
         Ok(needed(&at("axis"), section.axis, because, remedy)?.index())
     };
     let through = || match section.point {
-        Some(point) => cell_at(&at("point"), point, &setup.domain, units),
-        None => Ok(setup.domain.cells().map(|n| n / 2)),
+        Some(point) => place_of(&at("point"), point, &setup.domain, units),
+        None => Ok(middle(&setup.domain)),
     };
     Ok(match section.kind {
         RecordKind::Box => What::Box,
@@ -167,7 +172,8 @@ fn what(
         RecordKind::Slice => {
             let normal = axis()?;
             let quantity = section.quantity.unwrap_or_default();
-            What::Slice { normal, plane: through()?[normal], quantity }
+            let si_range = section.range.map(|range| si_range(&at("range"), range)).transpose()?;
+            What::Slice { normal, at: through()?[normal], quantity, si_range }
         }
         RecordKind::Loads => What::Loads,
         RecordKind::Grains => What::Grains,
@@ -227,19 +233,36 @@ fn check_name(key: &str, name: &str) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// The cell that contains a point.
-fn cell_at(
+/// The ends of a scale of colours.
+fn si_range(key: &str, range: [f64; 2]) -> Result<[f64; 2], Trouble> {
+    finite(key, &range, "in the unit of the quantity: m/s or Pa")?;
+    // A span that rounding eats up has no ticks.
+    let [low, high] = range;
+    if high - low > 1e-9 * low.abs().max(high.abs()) {
+        return Ok(range);
+    }
+    let problem = format!("its second value, {high}, must be above its first, {low}");
+    Err(Trouble::new(key, problem, "give the lowest value first, for example [0.0, 1e-3]"))
+}
+
+/// The middle of the box, in cells.
+pub fn middle(domain: &Domain) -> [f64; 3] {
+    domain.cells().map(|n| 0.5 * n as f64)
+}
+
+/// A point in cells.
+fn place_of(
     key: &str,
     si_point: [f64; 3],
     domain: &Domain,
     units: &Units,
-) -> Result<[usize; 3], Trouble> {
+) -> Result<[f64; 3], Trouble> {
     finite(key, &si_point, "m")?;
-    let mut cell = [0; 3];
+    let mut place = [0.0; 3];
     for axis in 0..3 {
         let along = si_point[axis] / units.si_dx;
         let n = domain.cells()[axis];
-        if !(0.0..n as f64).contains(&along) {
+        if !(0.0..=n as f64).contains(&along) {
             let problem = format!(
                 "it lies outside the box, which spans 0 to {:.6e} m along {}",
                 n as f64 * units.si_dx,
@@ -247,9 +270,7 @@ fn cell_at(
             );
             return Err(Trouble::new(key, problem, "give a point inside the box"));
         }
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to n")]
-        let index = along as usize;
-        cell[axis] = index;
+        place[axis] = along;
     }
-    Ok(cell)
+    Ok(place)
 }

@@ -18,7 +18,7 @@ pub struct Stop {
     pub steady: Option<Steady>,
 }
 
-/// A steady-state criterion: three rows in a row change a column by less than `tolerance`.
+/// A steady-state criterion: what a column has still to go is estimated to be less than `tolerance`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
     /// Number of the record, of kind [`What::Box`], [`What::GrainMeans`] or [`What::Loads`].
@@ -26,7 +26,7 @@ pub struct Steady {
     /// Number of the column in [`BOX_COLUMNS`], [`grain_means::COLUMNS`] or, summed over all grains,
     /// [`FORCE_COLUMNS`].
     pub column: usize,
-    /// Largest relative change.
+    /// Largest distance from the final value, relative.
     pub tolerance: f64,
 }
 
@@ -102,9 +102,14 @@ fn unfit(named: Option<&Record>, records: &[Record]) -> (String, String) {
 }
 
 impl Steady {
-    /// Name of the column, in a scene whose records are `records`.
+    /// The column, in a scene whose records are `records`.
+    pub fn column(&self, records: &[Record]) -> Column {
+        columns(&records[self.record]).map_or(Column::new("", ""), |columns| columns[self.column])
+    }
+
+    /// Its name.
     pub fn column_name(&self, records: &[Record]) -> &'static str {
-        columns(&records[self.record]).map_or("", |columns| columns[self.column].name)
+        self.column(records).name
     }
 }
 

@@ -51,7 +51,8 @@ pub(super) fn units_and_tau(
         }
     };
     let units = Units { si_dx, si_dt, si_density: fluid.density };
-    let tau = relaxation_time(si_nu / units.si_viscosity());
+    // A relaxation time that is given reaches the engine as it is: on its way through dt it would lose digits.
+    let tau = section.tau.unwrap_or_else(|| relaxation_time(si_nu / units.si_viscosity()));
     let usual = format!(
         "`time.dt = {:.3e}` would be tau = {USUAL_TAU}: give that, instead of what sets it now",
         step_of_tau(USUAL_TAU, si_dx, si_nu)?

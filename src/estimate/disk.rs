@@ -1,0 +1,119 @@
+//! How much a run will write: rows and pictures times their sizes, and the checkpoints. What is compressible or
+//! depends on the flow is taken at its largest, so that a run writes no more than this.
+
+use std::path::Path;
+
+use super::Warning;
+use crate::machine::free_bytes;
+use crate::output::records::columns;
+use crate::scene::format_run::FieldFormat;
+use crate::scene::{EngineKind, Record, Rhythm, Scene, What};
+
+/// Nobody writes more than this without having thought of it.
+const MUCH: f64 = 1e12;
+
+/// A number in a table, `-1.2345678901234567e-10`, and its comma.
+const TEXT_NUMBER: f64 = 24.0;
+
+/// A cell of a picture, where each neighbour has another colour.
+const PICTURE_CELL: f64 = 110.0;
+
+/// The frame of a picture, and an outline.
+const PICTURE: f64 = 15e3;
+const OUTLINE: f64 = 1500.0;
+
+/// A grain in a file for ParaView: 22 numbers in double precision, and two of the lists of points.
+const GRAIN_POINT: f64 = 24.0 * 8.0;
+
+/// A grain in a checkpoint: its motion, its load and a few contacts.
+const GRAIN_STATE: f64 = 1000.0;
+
+/// Checkpoints that may be there at a time: two are kept, one is being written.
+const CHECKPOINTS: f64 = 3.0;
+
+/// Bytes that the run writes at most, if no limit but its steps ends it.
+pub fn bytes(scene: &Scene) -> f64 {
+    let records: f64 = scene.records.iter().map(|record| of_record(scene, record)).sum();
+    records + checkpoints(scene)
+}
+
+fn of_record(scene: &Scene, record: &Record) -> f64 {
+    let times = match record.rhythm {
+        Rhythm::Every(interval) => (scene.stop.steps / interval) as f64 + 1.0,
+        Rhythm::AtEnd => 1.0,
+    };
+    times * at_a_time(scene, &record.what, columns(record).map_or(0, |columns| columns.len()))
+}
+
+/// Bytes of a record each time.
+fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
+    let cells = scene.setup.domain.cells().map(|n| n as f64);
+    let all = cells.iter().product::<f64>();
+    let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
+    let row = columns as f64 * TEXT_NUMBER;
+    match what {
+        What::Box | What::GrainMeans => row,
+        What::Profile { axis, .. } => row * cells[*axis],
+        What::Loads => row * solids,
+        What::Grains => GRAIN_POINT * solids,
+        What::Slice { normal, .. } => {
+            PICTURE + PICTURE_CELL * all / cells[*normal] + OUTLINE * solids
+        }
+        What::Fields { formats } => {
+            // Pressure, velocity, and the solid fraction where there are solids.
+            let values = if scene.setup.solid_phase.is_some() { 5.0 } else { 4.0 };
+            let size = |format: &FieldFormat| match format {
+                FieldFormat::Vti => 4.0,
+                FieldFormat::Npy => 8.0,
+            };
+            formats.iter().map(size).sum::<f64>() * values * all
+        }
+    }
+}
+
+fn checkpoints(scene: &Scene) -> f64 {
+    let population = match scene.engine {
+        EngineKind::Wgpu => 4.0,
+        EngineKind::Reference | EngineKind::Auto => 8.0,
+    };
+    let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
+    let cells = scene.setup.domain.cell_count() as f64;
+    CHECKPOINTS * (19.0 * population * cells + GRAIN_STATE * solids)
+}
+
+/// Whether that is more than fits where `folder` is, or will be; or very much.
+pub fn warnings(scene: &Scene, folder: &Path) -> Vec<Warning> {
+    let needed = bytes(scene);
+    let most =
+        scene.records.iter().max_by(|a, b| of_record(scene, a).total_cmp(&of_record(scene, b)));
+    let most = most.map_or(String::new(), |record| {
+        format!(", {} of it by the record {}", words(of_record(scene, record)), record.name)
+    });
+    let reason = match free_bytes(folder) {
+        Some(free) if needed > free as f64 => {
+            format!(
+                "the run may write {}{most}; {} are free there",
+                words(needed),
+                words(free as f64)
+            )
+        }
+        _ if needed > MUCH => format!("the run may write {}{most}", words(needed)),
+        _ => return Vec::new(),
+    };
+    let remedy =
+        "take records less often (`every`), shorten the run, or write to a larger disk (`--out`)";
+    vec![Warning { reason, remedy: remedy.to_owned() }]
+}
+
+/// Bytes in words.
+pub fn words(bytes: f64) -> String {
+    const UNITS: [&str; 5] = ["bytes", "kB", "MB", "GB", "TB"];
+    let mut scaled = (bytes, 0);
+    while scaled.0 >= 1000.0 && scaled.1 + 1 < UNITS.len() {
+        scaled = (scaled.0 / 1000.0, scaled.1 + 1);
+    }
+    match scaled.1 {
+        0 => format!("{bytes:.0} bytes"),
+        unit => format!("{:.1} {}", scaled.0, UNITS[unit]),
+    }
+}
