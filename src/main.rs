@@ -21,6 +21,7 @@ use psmrt::command::say::{say, say_bytes, tell};
 use psmrt::command::stability::StabilityRequest;
 use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
+use psmrt::quote;
 
 /// Grains and water, resolved grain by grain: lattice Boltzmann with a verified oracle.
 #[derive(Parser)]
@@ -263,7 +264,7 @@ fn report(error: &CommandError, json: bool) {
             error.render(&annotate_snippets::Renderer::styled())
         }
         CommandError::Scene(error) => error.to_string(),
-        CommandError::Interrupted { .. } => error.to_string(),
-        error => format!("error: {error}"),
+        CommandError::Interrupted { .. } => quote::lines(&error.to_string()),
+        error => quote::lines(&format!("error: {error}")),
     });
 }

@@ -36,10 +36,16 @@ pub enum RunError {
         remedy: String,
     },
     /// Its results cannot be written.
-    #[error("results cannot be written: {0}; what was written before is whole")]
+    #[error(
+        "results cannot be written: {0}; what was written before is whole: make room on the disk, or allow \
+         writing there, and go on with `psmrt resume`"
+    )]
     Write(#[from] io::Error),
     /// Its state cannot be saved.
-    #[error("the checkpoint cannot be written: {0}; what was written before is whole")]
+    #[error(
+        "the checkpoint cannot be written: {0}; what was written before is whole: make room on the disk, or \
+         allow writing there, and go on with `psmrt resume`"
+    )]
     Checkpoint(#[from] CheckpointError),
     /// A table that a resumed run should go on with is not the one that it has written.
     #[error("{0}; put it back as it was, or start a new run: nothing has been changed")]

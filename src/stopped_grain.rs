@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use psmrt_reference::coupling::CoupledStop;
+use psmrt_reference::coupling::{CoupledStop, Gravity};
 use psmrt_reference::grains::hold::{self, DEEPEST, Obstacle, Sunk};
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
@@ -11,7 +11,6 @@ use thiserror::Error;
 
 use crate::engine::{Engine, EngineStop};
 use crate::scene::check::MAX_SPEED;
-use crate::scene::check::free::acceleration;
 use crate::scene::check::hardness::{Burden, IN_IMPACT, ONE_ON_ONE};
 use crate::scene::{FreePart, Scene};
 
@@ -215,7 +214,7 @@ impl Case<'_> {
     }
 
     fn burden(&self) -> Burden {
-        let g = self.part.settings.gravity.as_ref().map_or_else(Vec3::zeros, acceleration);
+        let g = self.part.settings.gravity.as_ref().map_or_else(Vec3::zeros, Gravity::acceleration);
         let setup = &self.scene.setup;
         Burden::new(&self.part.grains, &g, &setup.domain, viscosity(setup.collision.tau()))
     }

@@ -43,7 +43,7 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
         return Ok(());
     }
     if !scene.title.is_empty() {
-        say(&format!("{}\n", scene.title));
+        say(&format!("{}\n", crate::quote::lines(&scene.title)));
     }
     for number in &numbers {
         let value = format!("{} {}", figure(number.value), number.unit);

@@ -51,7 +51,7 @@ pub(super) fn print(
     evidence: &[String],
 ) {
     if !scene.title.is_empty() {
-        say(&format!("{}\n", scene.title));
+        say(&format!("{}\n", crate::quote::lines(&scene.title)));
     }
     let across = match facts.limit {
         Limit::Grains { .. } => "cells across a grain",

@@ -145,6 +145,10 @@ impl Engine for ReferenceEngine {
         self.fluid().loads().to_vec()
     }
 
+    fn displaced(&self) -> Vec<f64> {
+        self.fluid().displaced()
+    }
+
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
         let Memory { steps, loads, evidence } = self.fluid().memory();
         put_whole(out, steps)?;

@@ -14,12 +14,7 @@ use crate::scene::{FreePart, Scene};
 
 /// Gravity, and what of a grain's mass it acts on.
 fn pull(part: &FreePart) -> Vec3 {
-    match part.settings.gravity {
-        Some(Gravity::Reduced { acceleration } | Gravity::OnFluidToo { acceleration }) => {
-            acceleration
-        }
-        None => Vec3::zeros(),
-    }
+    part.settings.gravity.map_or_else(Vec3::zeros, |gravity| gravity.acceleration())
 }
 
 /// Weight less buoyancy, lattice units.
@@ -130,6 +125,12 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
     match settings.gravity {
         Some(Gravity::Reduced { .. }) => {
             models.push("gravity: reduced pressure, grains carry weight less buoyancy".to_owned());
+        }
+        Some(Gravity::Balanced { .. }) => {
+            models.push(
+                "gravity: reduced pressure, the net weight of all grains carried by a uniform pressure gradient"
+                    .to_owned(),
+            );
         }
         Some(Gravity::OnFluidToo { .. }) => {
             models.push("gravity: as a body force on the fluid, and on the grains".to_owned());

@@ -61,6 +61,14 @@ pub struct GravitySection {
     /// diameter and tau = 1, tests/oracle/coupling.rs).
     #[serde(default)]
     pub form: GravityForm,
+    /// `true` where the domain is periodic along gravity and nothing else holds up what is in it: a uniform
+    /// pressure gradient, which acts on fluid and grains alike, carries the net weight (weight less buoyancy) of
+    /// all grains, as in a tall vessel. The total momentum then stays as it starts and grains settle through the
+    /// fluid; without it, fluid and grains fall together faster and faster. `false` where absent. Needs the
+    /// form `reduced`, free grains only, and faces that are periodic or `free_slip`. Settling velocities of
+    /// arrays are quoted against the mean flux: subtract the superficial velocity of a `box` record.
+    #[serde(default)]
+    pub balance: bool,
 }
 
 /// How gravity acts.

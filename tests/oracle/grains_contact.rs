@@ -181,6 +181,21 @@ fn duration_and_restitution_come_back_from_the_law() {
 }
 
 #[test]
+fn restitution_near_critical_damping_keeps_its_digits() {
+    // exp(-2 ζ acos ζ/√(1 - ζ²)), continued beyond 1 by acosh, with 40 digits (mpmath).
+    for (zeta, expected) in [
+        (0.99991, 0.135_351_524_883_608_08),
+        (0.99995, 0.135_344_306_024_927_11),
+        (1.00005, 0.135_326_261_320_458_99),
+        (1.00009, 0.135_319_044_415_418_03),
+    ] {
+        // The series used there leaves out 1e-13; its last term is 3e-10 of e at 1e-4 from 1.
+        let off = restitution(zeta) - expected;
+        assert!(off.abs() < 2e-13, "zeta {zeta}: restitution off by {off:e}");
+    }
+}
+
+#[test]
 fn friction_and_rolling_swing_as_long_as_the_contact_lasts() {
     let law = ContactLaw::from_duration_and_restitution(0.3, 1.0, 0.7).unwrap();
     for law in [law, law.with_friction(0.5).unwrap(), law.with_rolling(0.1).unwrap()] {

@@ -126,6 +126,27 @@ fn a_lubrication_that_makes_no_sense_is_refused() {
     assert!(
         message(Lubrication { viscosity: 0.0, ..LAW }).contains("viscosity = 0 must be positive")
     );
-    let gaps = message(Lubrication { smallest_gap: 0.3, ..LAW });
-    assert!(gaps.contains("0 < smallest_gap < cutoff_gap"), "{gaps}");
+    for viscosity in [-1.0, f64::INFINITY, f64::NAN] {
+        assert!(Lubrication { viscosity, ..LAW }.checked().is_err(), "viscosity {viscosity}");
+    }
+    let infinite = f64::INFINITY;
+    for (smallest_gap, cutoff_gap) in
+        [(0.3, 0.2), (0.2, 0.2), (0.0, 0.2), (-1e-3, 0.2), (1e-3, infinite), (f64::NAN, 0.2)]
+    {
+        let gaps = message(Lubrication { smallest_gap, cutoff_gap, ..LAW });
+        assert!(gaps.contains("0 < smallest_gap < cutoff_gap"), "{gaps}");
+    }
+    assert_eq!(LAW.checked(), Ok(LAW));
+}
+
+#[test]
+fn the_largest_coefficient_is_that_of_a_sphere_as_close_to_a_plane_as_counts() {
+    let unit = 6.0 * PI * LAW.viscosity * 3.0;
+    // l/h - l/h_c + (1/5) ln(h_c/h) with l = a = 3, h = 1e-3, h_c = 0.2
+    let expected = unit * (3000.0 - 15.0 + 0.2 * 200.0_f64.ln());
+    let largest = LAW.largest(3.0);
+    assert!((largest / expected - 1.0).abs() < 1e-14, "{largest}, expected {expected}");
+    for radius in [0.5, 3.0] {
+        assert!(LAW.between_spheres(1e-3, [3.0, radius]) < largest);
+    }
 }

@@ -6,7 +6,7 @@ use common::observed_order;
 use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::law::{ContactLaw, Friction};
 use psmrt_reference::grains::lubrication::Lubrication;
-use psmrt_reference::grains::motion::{SUBSTEPS_PER_CONTACT, Substeps};
+use psmrt_reference::grains::motion::{SUBSTEPS_PER_CONTACT, Substeps, divide};
 use psmrt_reference::grains::plane::Plane;
 use psmrt_reference::grains::setup::{GrainError, GrainSetup, PeriodicBox};
 use psmrt_reference::grains::system::GrainSystem;
@@ -125,6 +125,22 @@ fn sub_steps_are_chosen_and_refused_by_the_contact_duration() {
     assert!((time(oil) / slowest - 1.0).abs() < 0.02);
     // A stiff dashpot too, though it makes contacts last longer.
     assert!(time(|setup, _, _| setup.law.damping = 1e3) < 0.01);
+}
+
+#[test]
+fn sub_steps_at_the_limits_are_taken_and_beyond_them_refused() {
+    // Ten in the shortest contact are allowed, to the last bit.
+    assert_eq!(divide(1.0, 1.0, Substeps::Fixed(10)), Ok((10, 0.1)));
+    assert!(divide(1.0, 1.0, Substeps::Fixed(9)).is_err());
+    // As many as a u32 holds, and one more.
+    let most = f64::from(u32::MAX);
+    assert_eq!(divide(1.0, 25.0 / (most - 0.5), Substeps::Automatic), Ok((u32::MAX, 1.0 / most)));
+    assert_eq!(divide(1.0, 1.0, Substeps::Fixed(u32::MAX)), Ok((u32::MAX, 1.0 / most)));
+    assert!(divide(1.0, 25.0 / (most + 1.0), Substeps::Automatic).is_err());
+    assert!(divide(1.0, 0.0, Substeps::Automatic).is_err());
+    for step in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+        assert!(divide(step, 1.0, Substeps::Automatic).is_err(), "step {step}");
+    }
 }
 
 #[test]

@@ -31,6 +31,14 @@ pub enum Gravity {
         /// Acceleration, lattice units.
         acceleration: Vec3,
     },
+    /// By reduced pressure, and the net weight of all grains is carried by a uniform body force
+    /// ([`super::balancing_force`], which the set-up of the fluid must have): for domains that are periodic
+    /// along gravity. Whoever drives the grains adds what the body force lacks in their cells to their
+    /// loads ([`super::with_displaced`]).
+    Balanced {
+        /// Acceleration, lattice units.
+        acceleration: Vec3,
+    },
     /// On fluid and grains: the fluid carries the body force `rho_f g` (which the set-up of the fluid
     /// must have), a grain `m_s g`. The PS term displaces the sum of `B`, not `V`, so the buoyancy is
     /// too small on coarse grids.
@@ -38,6 +46,17 @@ pub enum Gravity {
         /// Acceleration, lattice units.
         acceleration: Vec3,
     },
+}
+
+impl Gravity {
+    /// The acceleration of either form.
+    pub fn acceleration(&self) -> Vec3 {
+        match *self {
+            Gravity::Reduced { acceleration }
+            | Gravity::Balanced { acceleration }
+            | Gravity::OnFluidToo { acceleration } => acceleration,
+        }
+    }
 }
 
 /// How fluid and grains act on each other.
@@ -222,7 +241,7 @@ impl FreeGrains {
         }
         match self.settings.gravity {
             // + (m_s - m_f) g
-            Some(Gravity::Reduced { acceleration }) => {
+            Some(Gravity::Reduced { acceleration } | Gravity::Balanced { acceleration }) => {
                 total.force += (grain.mass - fluid_mass) * acceleration;
             }
             // + m_s g; the fluid's body force provides the buoyancy
@@ -237,12 +256,7 @@ impl FreeGrains {
     fn mirrored(&self, grain: &Grain, load: &Load) -> Load {
         let mut load = *load;
         for axis in 0..3 {
-            let planes = [0.0, self.domain.cells()[axis] as f64];
-            let on_mirror = (0..2).any(|side| {
-                self.domain.faces().axis(axis)[side] == Face::FreeSlip
-                    && grain.position[axis] == planes[side]
-            });
-            if on_mirror {
+            if mirrors_through(&self.domain, grain, axis) {
                 // F + F': the part along the normal cancels; T is axial: the part across it does
                 load.force *= 2.0;
                 load.force[axis] = 0.0;
@@ -252,6 +266,13 @@ impl FreeGrains {
         }
         load
     }
+}
+
+/// Whether a mirror plane across `axis` goes through the centre of a grain.
+pub(super) fn mirrors_through(domain: &Domain, grain: &Grain, axis: usize) -> bool {
+    let planes = [0.0, domain.cells()[axis] as f64];
+    let faces = domain.faces().axis(axis);
+    (0..2).any(|side| faces[side] == Face::FreeSlip && grain.position[axis] == planes[side])
 }
 
 impl LastStep {

@@ -11,7 +11,7 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use super::contact::{Bodies, Laws, consistent, laws, mirror, substeps};
 use super::grains::{GrainList, Listed};
 use super::hardness::Burden;
-use super::{Trouble, effort, mirrors};
+use super::{Trouble, balance, effort, mirrors};
 use crate::scene::format::SceneFile;
 use crate::scene::format_free::{
     ContactSection, GravityForm, GravitySection, InternalFluidName, LubricationSection,
@@ -63,9 +63,12 @@ pub(super) fn free_part(
     let contact = file.contact.clone().unwrap_or_default();
     consistent(&contact)?;
     let gravity = file.gravity.as_ref().map(|section| gravity(section, units)).transpose()?;
+    if file.gravity.as_ref().is_some_and(|section| section.balance) {
+        balance::check(file, list, domain)?;
+    }
     let mirrored = mirrors::centred(domain, list, gravity.as_ref(), units)?;
     let grains: Vec<Grain> = list.grains.iter().map(Listed::to_grain).collect();
-    let g = gravity.as_ref().map_or_else(Vec3::zeros, acceleration);
+    let g = gravity.as_ref().map_or_else(Vec3::zeros, Gravity::acceleration);
     let weight_asks = Burden::new(&grains, &g, domain, viscosity(tau)).stiffness();
     let bodies = Bodies { lightest, weight_asks };
     let maker = Maker { grains: &grains, bodies, domain, mirrored, tau, units };
@@ -139,16 +142,10 @@ fn no_free_grains(file: &SceneFile) -> Result<(), Trouble> {
 fn gravity(section: &GravitySection, units: &Units) -> Result<Gravity, Trouble> {
     let acceleration = super::acceleration("gravity.acceleration", section.acceleration, units)?;
     Ok(match section.form {
+        GravityForm::Reduced if section.balance => Gravity::Balanced { acceleration },
         GravityForm::Reduced => Gravity::Reduced { acceleration },
         GravityForm::BodyForce => Gravity::OnFluidToo { acceleration },
     })
-}
-
-/// The acceleration of either form.
-pub(crate) fn acceleration(gravity: &Gravity) -> Vec3 {
-    match *gravity {
-        Gravity::Reduced { acceleration } | Gravity::OnFluidToo { acceleration } => acceleration,
-    }
 }
 
 /// The faces as planes: walls with their velocity, mirrors as what they mirror, and inlets, outflows
