@@ -12,6 +12,7 @@ use psmrt_reference::grains::packing::periodic::PeriodicPacking;
 use psmrt_reference::grains::packing::{Packing, PackingError, PackingReport, radius_for};
 use serde_json::json;
 
+use super::plan::part;
 use super::say::say;
 use super::{CommandError, write};
 use crate::output::{atomic, grain_list};
@@ -38,8 +39,8 @@ pub struct PackRequest {
     /// Number of grains
     #[arg(long, value_name = "N")]
     pub count: Option<usize>,
-    /// Void volume over volume, of a periodic packing
-    #[arg(long, value_name = "N")]
+    /// Void volume over volume, of a periodic packing: 0.4 or 40%
+    #[arg(long, value_name = "N", value_parser = |text: &str| part(text, "40% or 0.4"))]
     pub porosity: Option<f64>,
     /// Friction while a bed settles; 0 packs dense
     #[arg(long, value_name = "MU", default_value_t = 0.5)]
