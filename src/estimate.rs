@@ -15,6 +15,7 @@
 pub(crate) mod bed;
 pub mod disk;
 pub(crate) mod grains;
+pub mod memory;
 mod models;
 mod numbers;
 pub mod speed;

@@ -5,6 +5,8 @@ mod cli;
 use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Duration;
 
 use cli::{Folder, psmrt, psmrt_in, stderr, stdout};
 use psmrt::scene::Scene;
@@ -69,6 +71,57 @@ fn a_list_that_is_there_is_not_replaced_unless_asked() {
     assert_eq!(fs::read(folder.path("grains.csv")).unwrap(), b"mine");
     pack(&folder, &(options[1..].join(" ") + " --force"));
     assert!(fs::read(folder.path("grains.csv")).unwrap().starts_with(b"# 20 grains"));
+}
+
+#[test]
+fn a_list_that_appears_while_grains_are_packed_stays_and_the_packing_is_kept_too() {
+    let folder = Folder::new("pack_appears");
+    // Grains that settle, for longer than it takes to write a file.
+    let options = "pack --bed --size 1e-3,1e-3 --diameter 1e-4 --count 400 --out a.csv";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_psmrt"))
+        .args(options.split(' '))
+        .current_dir(folder.path(""))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // It has looked for the file by then.
+    std::thread::sleep(Duration::from_millis(300));
+    assert!(child.try_wait().unwrap().is_none(), "the packing was made too soon for this test");
+    folder.write("a.csv", "precious");
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
+    assert!(stderr(&output).contains("the list is in a-2.csv"), "{}", stderr(&output));
+    assert_eq!(fs::read(folder.path("a.csv")).unwrap(), b"precious");
+    assert!(fs::read(folder.path("a-2.csv")).unwrap().starts_with(b"# 400 grains"));
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_file_is_not_replaced_by_force_and_half_written_files_of_the_user_stay() {
+    let folder = Folder::new("pack_special");
+    folder.write("mine.csv", "mine");
+    folder.write("new.csv.part", "mine too");
+    std::os::unix::fs::symlink("mine.csv", folder.path("link.csv")).unwrap();
+    fs::create_dir(folder.path("folder.csv")).unwrap();
+    assert!(Command::new("mkfifo").arg(folder.path("pipe.csv")).status().unwrap().success());
+    let options =
+        ["pack", "--size", "4e-4,4e-4,4e-4", "--count", "20", "--porosity", "0.6", "--force"];
+    for (out, told) in [
+        ("link.csv", "is a link"),
+        ("folder.csv", "is a folder"),
+        ("pipe.csv", "is a device, pipe or socket"),
+        ("nowhere/new.csv", "there is no folder nowhere"),
+    ] {
+        let output = psmrt_in(&folder.path(""), &[&options[..], &["--out", out]].concat());
+        assert_eq!(output.status.code(), Some(2), "{out}: {}", stderr(&output));
+        assert!(stderr(&output).contains(told), "{out}: {}", stderr(&output));
+    }
+    assert!(folder.path("link.csv").symlink_metadata().unwrap().is_symlink());
+    assert!(!folder.path("pipe.csv").metadata().unwrap().is_file());
+    assert_eq!(fs::read(folder.path("mine.csv")).unwrap(), b"mine");
+    pack(&folder, &(options[1..].join(" ") + " --out new.csv"));
+    assert_eq!(fs::read(folder.path("new.csv.part")).unwrap(), b"mine too");
 }
 
 #[test]

@@ -1,6 +1,5 @@
 //! `psmrt plan`: the cheapest way to compute a scene to a given error.
 
-use std::fs::OpenOptions;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -14,6 +13,7 @@ use crate::cases::CaseError;
 use crate::engine::Engine;
 use crate::estimate::calibrate;
 use crate::kernel::adapters;
+use crate::output::atomic;
 use crate::plan::facts::{Facts, Limit};
 use crate::plan::options::{Speed, Way, as_it_is, cheapest, most_accurate, ways, why_none};
 use crate::plan::predict::{Outside, percent};
@@ -270,16 +270,14 @@ fn write_scene(
         file.parent().unwrap_or(Path::new("")),
         &[],
     )?;
-    let mut out =
-        OpenOptions::new().write(true).create_new(true).open(file).map_err(|error| match error
-            .kind()
-        {
+    atomic::write_new(file, |out| out.write_all(text.as_bytes())).map_err(|error| {
+        match error.kind() {
             std::io::ErrorKind::AlreadyExists => CommandError::Usage(format!(
                 "{name} is there already and stays: give --write another name, or remove it"
             )),
             _ => failed(error.to_string()),
-        })?;
-    out.write_all(text.as_bytes()).map_err(|error| failed(error.to_string()))?;
+        }
+    })?;
     if !request.json {
         say(&format!("\nwritten to {name}"));
     }

@@ -5,9 +5,8 @@ use psmrt_reference::solids::Shape;
 
 use super::bed::bed;
 use super::warnings::accuracy::{outlook, subject};
-use super::{Number, diameters, grains, number, si_velocity};
+use super::{Number, diameters, grains, memory, number, si_velocity};
 use crate::plan::predict::Outside;
-use crate::scene::check::domain::BYTES_PER_CELL;
 use crate::scene::{EngineKind, Scene};
 
 /// The length for the Reynolds number, m, and what it is.
@@ -89,13 +88,13 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
     }
     numbers.extend(predicted_error(scene));
     numbers.extend(grains::numbers(scene));
-    // Two copies of 19 populations of 4 bytes on a device.
-    let (engine, bytes) = match scene.engine {
-        EngineKind::Wgpu => ("wgpu", 2 * 19 * 4),
-        EngineKind::Reference | EngineKind::Auto => ("reference", BYTES_PER_CELL),
+    let engine = match scene.engine {
+        EngineKind::Wgpu => "wgpu",
+        EngineKind::Reference | EngineKind::Auto => "reference",
     };
-    let memory = (count as u64 * bytes) as f64 / f64::from(1 << 20);
-    numbers.push(number("memory", memory, "MiB", format!("populations, engine {engine}")));
+    let parts: Vec<_> = memory::parts(scene).iter().map(|part| part.what).collect();
+    let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
+    numbers.push(number("memory", mib, "MiB", format!("{}; engine {engine}", parts.join(", "))));
     let written = super::disk::bytes(scene);
     let note = "of records and checkpoints, at most";
     numbers.push(number("disk", written / f64::from(1 << 20), "MiB", note));
