@@ -31,7 +31,7 @@ use psmrt::quote;
     after_help = "Examples:
   psmrt check golden/poiseuille/scene.toml
   psmrt run golden/poiseuille/scene.toml
-  psmrt resume out/poiseuille"
+  psmrt resume out/poiseuille      (after Ctrl-C, a crash or a full disk)"
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -81,8 +81,13 @@ Examples:
         profile: bool,
     },
     /// Goes on with a run from its newest checkpoint
-    #[command(after_help = "Example:
-  psmrt resume out/poiseuille")]
+    #[command(
+        after_help = "A run that has finished is left as it is. Nothing is deleted: what a run without a checkpoint has written
+is set aside when it starts again.
+
+Example:
+  psmrt resume out/steel"
+    )]
     Resume {
         /// Folder of the run
         dir: PathBuf,

@@ -105,6 +105,6 @@ pub trait Engine {
     /// Writes all that it needs to go on from here, bit for bit.
     fn save(&self, out: &mut dyn Write) -> io::Result<()>;
 
-    /// Takes the state that [`Engine::save`] wrote for the same scene.
+    /// Takes the state that [`Engine::save`] wrote for the same scene. After an error it is of no use.
     fn load(&mut self, from: &mut dyn Read) -> io::Result<()>;
 }

@@ -23,7 +23,7 @@ fn buoyant_weight(part: &FreePart, grain: &Grain) -> f64 {
 }
 
 /// The grains that move.
-pub(super) fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
+pub(crate) fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
     part.grains.iter().filter(|grain| !grain.held)
 }
 

@@ -1,7 +1,7 @@
 //! What looks risky about a scene, one topic a file. `psmrt check` prints all of it, and `psmrt run` and
 //! `psmrt resume` before they start.
 
-mod accuracy;
+pub(crate) mod accuracy;
 mod contacts;
 mod density;
 mod ends;

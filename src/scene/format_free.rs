@@ -83,7 +83,9 @@ pub enum GravityForm {
 }
 
 /// How fluid and free grains act on each other. With either `internal_fluid` a grain of 1 to 10 times the fluid's
-/// density survives and keeps momentum, tau 0.501 to 2 (golden/stability/movers.csv); `lagged` is the default
+/// density survives and keeps momentum, tau 0.501 to 2; lighter ones do so down to 0.7 times with `lagged` (tau to 1;
+/// 0.8 times at 2), and with `kept` down to 0.5 times at tau 0.51, 0.6 at 0.55, 0.7 at 0.6 and 0.8, 0.8 at 1
+/// (golden/stability/movers.csv), below which they are thrown about until the run breaks; `lagged` is the default
 /// because a released sphere then starts as the exact solution says, within 2.5 % of its terminal velocity, while
 /// `kept` is too slow by more than 1.5 times that (tests/oracle/coupling.rs). Averaged loads with `lagged` let the spin
 /// of a neutrally buoyant grain swing.
