@@ -117,7 +117,12 @@ fn a_run_that_is_not_steady_says_so_and_by_how_much() {
     // The same for scripts; and with nothing asked for, nothing is missed.
     let (output, _) = run("json", &[&short[..], &["--json"]].concat());
     assert_eq!(output.status.code(), Some(3));
-    assert_eq!(json(&output)["run"]["state"], "not steady");
+    let run_facts = &json(&output)["run"];
+    assert_eq!(run_facts["state"], "not steady");
+    // The results of the flow, and how its files are to be read. 1/12 G H²/ν (1 + 1/(2 H²)), less what is missing.
+    let mean = &run_facts["results"]["box"]["superficial_velocity_x (m/s)"];
+    assert!((mean.as_f64().unwrap() / 1.66748e-3 - (1.0 - 3.04e-3)).abs() < 1e-4, "{run_facts}");
+    assert!(run_facts["files"]["npy"].as_str().unwrap().contains("z, y, x"), "{run_facts}");
     let (output, _) = run("limit", &["--set", "stop={ steps = 6000 }"]);
     assert!(output.status.success() && stdout(&output).starts_with("at its limit after"));
 }

@@ -7,11 +7,12 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use common::Budget;
+use psmrt::checkpoint;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::output::folder::RunFolder;
 use psmrt::run::steady::History;
 use psmrt::run::{End, Watcher, run};
-use psmrt::scene::Scene;
+use psmrt::scene::{Interval, Scene};
 
 /// Cells from plate to plate.
 const GAP: f64 = 8.0;
@@ -93,6 +94,46 @@ fn a_channel_is_steady_within_the_tolerance_of_its_exact_flow_at_any_spacing_of_
             );
         }
     }
+}
+
+/// Goes on until so many steps have been made.
+struct Until(u64);
+
+impl Watcher for Until {
+    fn watch(&mut self, steps: u64, _: Option<f64>) -> bool {
+        steps < self.0
+    }
+}
+
+#[test]
+fn a_run_that_is_cut_off_becomes_steady_at_the_same_step_with_the_same_rows() {
+    let mut budget = Budget::oracle(40_000);
+    // Rows at every third step: samples have been merged when it is cut off, and some rows wait to be.
+    let mut scene = channel(3, 1e-3);
+    // Sooner than a batch of steps.
+    scene.checkpoint = Interval::Steps(100);
+    let whole = |cuts: &[u64], budget: &mut Budget| {
+        let folder = tempfile::tempdir().unwrap();
+        for cut in cuts.iter().chain([&u64::MAX]) {
+            let held = RunFolder::open(folder.path()).unwrap();
+            let mut engine = ReferenceEngine::new(&scene).unwrap();
+            let newest = checkpoint::list(folder.path()).unwrap().pop();
+            let resumed =
+                newest.map(|file| checkpoint::load(&file, &held, &scene, &mut engine).unwrap());
+            let first = engine.steps();
+            let end = run(&scene, &mut engine, &held, resumed.as_ref(), &mut Until(*cut)).unwrap();
+            budget.spend(8 * (engine.steps() - first));
+            if end != End::Interrupted {
+                assert_eq!(*cut, u64::MAX, "steady too soon: {end:?}");
+                let rows = std::fs::read(folder.path().join("b.csv")).unwrap();
+                return (end, engine.steps(), rows);
+            }
+        }
+        unreachable!("the last part is not cut off")
+    };
+    let uncut = whole(&[], &mut budget);
+    assert!(uncut.1 > 1250, "{}: nothing has been merged", uncut.1);
+    assert_eq!(whole(&[400, 1000, 1240], &mut budget), uncut, "cut off three times");
 }
 
 /// Values at `rows` equal steps of the time `end`.
