@@ -78,9 +78,9 @@ fn a_lock_that_cannot_be_made_is_an_error_that_names_it() {
 /// Lets `vanish` take away the folder of a run that has written something; the run stops and says so, has
 /// made no new folder of that name, and goes on in the one that it names.
 fn rescued(name: &str, vanish: impl Fn(&Path)) {
-    const STEPS: u64 = 2000;
-    // The whole, and one that is made in two parts.
-    Budget::oracle(2_048_000).spend(2 * STEPS * CELLS);
+    const STEPS: u64 = 1000;
+    // For the three tests that call this: the whole, and one that is made in two parts.
+    Budget::oracle(3_072_000).spend(3 * 2 * STEPS * CELLS);
     let folder = Folder::new(name);
     let scene = write(&folder, STEPS, true);
     let (whole, out) = (folder.path("whole"), folder.path("run"));
