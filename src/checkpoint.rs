@@ -254,7 +254,7 @@ pub fn load(
 
 /// The header, and the file where the engine's state begins.
 fn open(path: &Path) -> io::Result<(Header, BufReader<File>)> {
-    let mut file = BufReader::with_capacity(1 << 20, File::open(path)?);
+    let mut file = BufReader::with_capacity(1 << 20, crate::input::open(path)?);
     let mut start = [0; 16];
     file.read_exact(&mut start)?;
     let length = u64::from_le_bytes(std::array::from_fn(|i| start[8 + i]));

@@ -8,14 +8,17 @@
 //! | `models.rs` | which models are on, each with the reason |
 //! | `grains.rs` | both for free grains, and what their warnings rest on |
 //! | `spheres.rs` | the spheres of a scene, and how much of each the box holds |
+//! | `bed.rs` | where they lie densest |
 //! | `speed.rs` | how long it takes, measured on its first steps |
 //! | `warnings.rs`, `warnings/` | what looks risky, one topic a file |
 
+pub(crate) mod bed;
 pub mod disk;
-mod grains;
+pub(crate) mod grains;
+pub mod memory;
 mod models;
 mod numbers;
-mod speed;
+pub mod speed;
 pub(crate) mod spheres;
 pub(crate) mod warnings;
 

@@ -11,6 +11,8 @@
 //! | [`estimate`] | what a scene will be, cost and risk |
 //! | [`cases`] | the acceptance cases: measured, judged, drawn |
 //! | [`exact`] | exact solutions to compare with |
+//! | [`courses`] | what prescribed spheres run into |
+//! | [`stopped_grain`] | why a run stopped at a free grain |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
 //! | [`tradeoff`] | speed for accuracy, measured |
@@ -28,6 +30,7 @@
 pub mod cases;
 pub mod checkpoint;
 pub mod command;
+pub mod courses;
 pub mod engine;
 pub mod estimate;
 pub mod exact;
@@ -43,4 +46,5 @@ pub mod quote;
 pub mod run;
 pub mod scene;
 pub mod stability;
+pub mod stopped_grain;
 pub mod tradeoff;

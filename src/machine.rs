@@ -1,7 +1,11 @@
 //! What this machine has.
 
+mod available;
+
 use std::path::Path;
 use std::time::Duration;
+
+pub use available::{Available, available};
 
 /// Main memory in bytes, where the system says so.
 pub fn memory_bytes() -> Option<u64> {

@@ -21,6 +21,7 @@ use psmrt::command::say::{say, say_bytes, tell};
 use psmrt::command::stability::StabilityRequest;
 use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
+use psmrt::quote;
 
 /// Grains and water, resolved grain by grain: lattice Boltzmann with a verified oracle.
 #[derive(Parser)]
@@ -30,7 +31,7 @@ use psmrt::command::{self, CommandError};
     after_help = "Examples:
   psmrt check golden/poiseuille/scene.toml
   psmrt run golden/poiseuille/scene.toml
-  psmrt resume out/poiseuille"
+  psmrt resume out/poiseuille      (after Ctrl-C, a crash or a full disk)"
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -80,8 +81,13 @@ Examples:
         profile: bool,
     },
     /// Goes on with a run from its newest checkpoint
-    #[command(after_help = "Example:
-  psmrt resume out/poiseuille")]
+    #[command(
+        after_help = "A run that has finished is left as it is. Nothing is deleted: what a run without a checkpoint has written
+is set aside when it starts again.
+
+Example:
+  psmrt resume out/steel"
+    )]
     Resume {
         /// Folder of the run
         dir: PathBuf,
@@ -258,7 +264,7 @@ fn report(error: &CommandError, json: bool) {
             error.render(&annotate_snippets::Renderer::styled())
         }
         CommandError::Scene(error) => error.to_string(),
-        CommandError::Interrupted { .. } => error.to_string(),
-        error => format!("error: {error}"),
+        CommandError::Interrupted { .. } => quote::lines(&error.to_string()),
+        error => quote::lines(&format!("error: {error}")),
     });
 }

@@ -10,11 +10,13 @@ use std::time::Instant;
 use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
+use crate::courses::Lookout;
 use crate::engine::{Engine, EngineStop};
 use crate::output::folder::RunFolder;
 use crate::output::names;
 use crate::output::records::Recorder;
 use crate::scene::{Interval, Rhythm, Scene};
+use crate::stopped_grain::{self, GrainStop};
 
 /// A run that could not go on.
 #[derive(Debug, Error)]
@@ -22,11 +24,28 @@ pub enum RunError {
     /// The guard has stopped it, a free grain cannot be moved, or the device has failed.
     #[error(transparent)]
     Stopped(#[from] EngineStop),
+    /// A contact has not held a free grain, or a grain is nowhere.
+    #[error(transparent)]
+    Grain(#[from] Box<GrainStop>),
+    /// The way of a prescribed sphere has ended.
+    #[error("stopped: {said}\n  help: {remedy}")]
+    Met {
+        /// What it has run into.
+        said: String,
+        /// What to do.
+        remedy: String,
+    },
     /// Its results cannot be written.
-    #[error("results cannot be written: {0}; what was written before is whole")]
+    #[error(
+        "results cannot be written: {0}; what was written before is whole: make room on the disk, or allow \
+         writing there, and go on with `psmrt resume`"
+    )]
     Write(#[from] io::Error),
     /// Its state cannot be saved.
-    #[error("the checkpoint cannot be written: {0}; what was written before is whole")]
+    #[error(
+        "the checkpoint cannot be written: {0}; what was written before is whole: make room on the disk, or \
+         allow writing there, and go on with `psmrt resume`"
+    )]
     Checkpoint(#[from] CheckpointError),
     /// A table that a resumed run should go on with is not the one that it has written.
     #[error("{0}; put it back as it was, or start a new run: nothing has been changed")]
@@ -124,7 +143,7 @@ pub fn run(
     resumed: Option<&Progress>,
     watcher: &mut dyn Watcher,
 ) -> Result<End, RunError> {
-    let mut run = Run::begin(scene, folder, resumed)?;
+    let mut run = Run::begin(scene, folder, resumed, engine.steps())?;
     let end = match run.advance(engine, resumed.is_none(), watcher) {
         Err(error) if error.misses_a_file() => return Err(run.rescue(engine)),
         end => end?,
@@ -160,6 +179,7 @@ struct Run<'a> {
     folder: &'a RunFolder,
     recorders: Vec<Recorder>,
     steady: Option<steady::Watch>,
+    lookout: Lookout,
 }
 
 impl<'a> Run<'a> {
@@ -167,6 +187,7 @@ impl<'a> Run<'a> {
         scene: &'a Scene,
         folder: &'a RunFolder,
         resumed: Option<&Progress>,
+        start: u64,
     ) -> Result<Self, RunError> {
         folder.prepare(scene)?;
         let path = folder.path();
@@ -183,7 +204,28 @@ impl<'a> Run<'a> {
             }
         };
         let steady = steady::Watch::begin(scene, resumed.and_then(|p| p.steady.as_ref()));
-        Ok(Run { scene, folder, recorders, steady })
+        let lookout = Lookout::new(scene, start);
+        Ok(Run { scene, folder, recorders, steady, lookout })
+    }
+
+    /// Steps to the next event. Errors where the state breaks or a prescribed sphere's way ends: then
+    /// nothing more is recorded.
+    fn step_on(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+        let now = engine.steps();
+        let event = self.next_event(now);
+        let meeting = self.lookout.meeting_until(event, u64::MAX);
+        let until = meeting.map_or(event, |meeting| meeting.step);
+        if let Err(stop) = engine.step(until - now) {
+            let grain = stopped_grain::explained(&stop, self.scene, engine);
+            return Err(grain.map_or(RunError::Stopped(stop), |stop| Box::new(stop).into()));
+        }
+        match meeting {
+            None => Ok(()),
+            Some(meeting) => Err(RunError::Met {
+                said: meeting.said(self.scene),
+                remedy: meeting.remedy(self.scene),
+            }),
+        }
     }
 
     /// Makes steps until the run has come to an end.
@@ -215,7 +257,7 @@ impl<'a> Run<'a> {
             if !go_on {
                 return Ok(End::Interrupted);
             }
-            engine.step(self.next_event(now) - now)?;
+            self.step_on(engine)?;
             self.observe(engine)?;
             engine.still_works()?;
         }

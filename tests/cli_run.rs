@@ -162,7 +162,8 @@ fn check_tells_numbers_models_and_warnings_and_makes_nothing() {
     let found = json(&psmrt(&["check", POISEUILLE, "--json", "--set", "time.tau=0.505"]));
     let tau = found["numbers"].as_array().unwrap().iter().find(|n| n["name"] == "tau").unwrap();
     assert!((tau["value"].as_f64().unwrap() - 0.505).abs() < 1e-12);
-    assert!(found["warnings"][0]["reason"].as_str().unwrap().contains("close to 0.5"), "{found}");
+    // The magic rates are exact between plates, near tau = 0.5 too.
+    assert_eq!(found["warnings"].as_array().map(Vec::len), Some(0), "{found}");
     assert!(found["engines"][0]["cell_updates_per_second"].as_f64().unwrap() > 0.0);
 }
 

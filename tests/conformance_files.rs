@@ -242,6 +242,21 @@ fn answers_that_cannot_be_used_are_wrong_with_their_reason() {
         assert_eq!(code, Some(1), "{text}");
         assert!(text.contains(&format!("weights/weight: {reason}")), "{text}: no {reason}");
     }
+    // What is no file is not waited for.
+    #[cfg(unix)]
+    for (target, reason) in [("/dev/zero", "it is a device, not a file"), ("pipe", "it is a pipe")]
+    {
+        let pipe = candidate.join(".pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.is_ok_and(|status| status.success()), "mkfifo");
+        fs::remove_file(&file).unwrap();
+        std::os::unix::fs::symlink(target.replace("pipe", "../.pipe"), &file).unwrap();
+        let (code, text, _) = check(&kit, &candidate);
+        assert_eq!(code, Some(1), "{text}");
+        assert!(text.contains(&format!("weights/weight: {reason}")), "{text}: no {reason}");
+        fs::remove_file(pipe).unwrap();
+    }
+    fs::remove_file(&file).unwrap();
     let mut nan = good.clone();
     let last = nan.len() - 8;
     nan[last..].copy_from_slice(&f64::NAN.to_le_bytes());

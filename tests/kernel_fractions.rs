@@ -50,7 +50,11 @@ fn device_fractions_add_up_to_the_volume_of_the_ball() {
         let volume = 4.0 / 3.0 * PI * radius.powi(3);
         // About 4π (r + 1)² cells are cut; all might be off the same way.
         let tolerance = 4.0 * PI * (radius + 1.0).powi(2) * bound(radius);
-        assert!((sum - volume).abs() <= tolerance, "{radius}: {sum} is not {volume}");
+        assert!(
+            (sum - volume).abs() <= tolerance,
+            "radius {radius}: the fractions of all cells add up to {sum}, the sphere has \
+             {volume}",
+        );
     }
 }
 
@@ -83,7 +87,11 @@ fn device_fractions_hardly_know_the_axes_of_the_box() {
             images(&centre).into_iter().map(|centre| (centre, radius)).collect();
         let found = found(&balls);
         let spread = found.iter().map(|x| (x - found[0]).abs()).fold(0.0, f64::max);
-        assert!(spread <= 2.0 * bound(radius), "{centre:?}, radius {radius}: {spread:e}");
+        assert!(
+            spread <= 2.0 * bound(radius),
+            "sphere at {centre:?}, radius {radius}: fractions under the symmetries of the cube \
+             differ by {spread:e}",
+        );
     }
 }
 

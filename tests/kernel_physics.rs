@@ -75,7 +75,7 @@ fn poiseuille_flow_converges_with_second_order_to_the_exact_profile() {
         // The wall's error is 4e-3 at 4 cells and of second order in closed form; at 16 cells it is
         // 3e-4 of the top speed, of which single precision (some 1e-6 of it) may turn the slope by
         // 1e-2, and MRT's density, which follows u², by as much.
-        assert!((order - 2.0).abs() < 0.03, "{name}: order {order}");
+        assert!((order - 2.0).abs() < 0.03, "{name}: the error falls with order {order}, not 2");
     }
 }
 
@@ -107,7 +107,7 @@ fn shear_wave_decays_with_the_viscosity_of_tau() {
         println!("tau {tau}: {off:.2e} besides the known {:.2e}", c * k * k);
         // What is left is of fourth order (k⁴ = 1.5e-3, with coefficients below 1 at these tau), and
         // rounding of the amplitudes: 1e-6 of them over a decay by e^0.3 or more.
-        assert!(off.abs() < 2e-3, "tau {tau}: {off:e}");
+        assert!(off.abs() < 2e-3, "tau {tau}: the viscosity is off the closed form by {off:e}");
     }
 }
 
@@ -150,8 +150,11 @@ fn drag_of_a_sphere_array_converges_to_zick_and_homsy() {
     // What PS leaves is of second order: the leak `x = 2.25 ν K/a²` of tests/oracle/sphere_arrays.rs, 0.04 at 8
     // cells per diameter, and the place of the surface, about half as much there (0.061 in all by
     // golden/sphere_arrays/study.csv). The steadiness of 5e-5 is far below.
-    assert!(errors[2].1.abs() < 0.07, "{errors:?}");
-    assert!((order - 2.0).abs() < 0.4, "order {order}");
+    assert!(
+        errors[2].1.abs() < 0.07,
+        "errors of the drag {errors:?}: the finest grid ought to be within 7 %",
+    );
+    assert!((order - 2.0).abs() < 0.4, "the error of the drag falls with order {order}, not 2");
 }
 
 fn mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps() {
@@ -173,7 +176,11 @@ fn mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps() {
     // speeds a cell's populations add up to 0.15 of such. The errors of steps and cells are
     // independent, so that after n steps √n times as much is the most that the mean may be off.
     let bound = f64::from(STEPS).sqrt() * 0.5 * f64::from(f32::EPSILON) * 0.15;
-    assert!(mass < bound && momentum < bound, "{mass:e}, {momentum:e}, bound {bound:e}");
+    assert!(
+        mass < bound && momentum < bound,
+        "mass has changed by {mass:e} and momentum by {momentum:e}, round-off explains \
+         {bound:e}",
+    );
 }
 
 /// A symmetry of the cube: component `i` of the image is `sign[i]` times component `from[i]`.
@@ -250,10 +257,16 @@ fn turned_and_mirrored_flows_are_the_same_flow() {
         println!("{symmetry:?}: {off:.1e}");
         // Five steps round populations below 0.1 (less their weights) to 6e-9 each, in another order
         // of sums; ten such in a row.
-        assert!(off < 3e-7, "{symmetry:?}: {off:e}");
+        assert!(
+            off < 3e-7,
+            "the flow turned by {symmetry:?} differs from the turned flow by {off:e}",
+        );
         // A sum over some 60 cells of momenta that are off by as much.
         let force_off = (symmetry.vector(&force) - turned_force).norm();
-        assert!(force_off < 3e-6, "{symmetry:?}: {force_off:e}");
+        assert!(
+            force_off < 3e-6,
+            "the force turned by {symmetry:?} differs from the turned force by {force_off:e}",
+        );
     }
 }
 

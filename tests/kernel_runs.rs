@@ -49,7 +49,11 @@ fn hundred_steps_of_every_model_and_face_stay_within_rounding_of_the_oracle() {
         both.run(&mut budget, 100);
         let errors = both.errors();
         println!("{name}: {errors:.3?}");
-        assert!(errors.worst() < 1.0, "{name}: {errors:?}");
+        assert!(
+            errors.worst() < 1.0,
+            "{name}: kernel against oracle, errors over what single precision explains: \
+             {errors:?}",
+        );
     }
 }
 
@@ -64,7 +68,11 @@ fn cells_one_at_a_time_and_populations_over_two_bindings_give_the_same() {
         both.run(&mut budget, 20);
         let errors = both.errors();
         println!("{name}: {errors:.3?}");
-        assert!(errors.worst() < 1.0, "{name}: {errors:?}");
+        assert!(
+            errors.worst() < 1.0,
+            "{name}: kernel against oracle, errors over what single precision explains: \
+             {errors:?}",
+        );
     }
 }
 
@@ -77,7 +85,11 @@ fn thousand_steps_stay_within_rounding_of_the_oracle() {
         both.run(&mut budget, 1000);
         let errors = both.errors();
         println!("{name}: {errors:.3?}");
-        assert!(errors.worst() < 1.0, "{name}: {errors:?}");
+        assert!(
+            errors.worst() < 1.0,
+            "{name}: kernel against oracle, errors over what single precision explains: \
+             {errors:?}",
+        );
     }
 }
 
@@ -166,7 +178,10 @@ fn random_scenes_stay_within_rounding_of_the_oracle() {
         both.run(&mut budget.borrow_mut(), STEPS);
         let errors = both.errors();
         // Random rates may amplify what is rounded for a few steps: four times the bound.
-        prop_assert!(errors.worst() < 4.0, "{errors:?}");
+        prop_assert!(
+            errors.worst() < 4.0,
+            "kernel against oracle, errors over what single precision explains: {errors:?}"
+        );
         Ok(())
     });
     if let Err(error) = outcome {

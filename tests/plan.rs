@@ -10,7 +10,6 @@ use psmrt::plan::facts::{Facts, Limit};
 use psmrt::plan::options::{Speed, Way, cheapest, ways};
 use psmrt::plan::write::text;
 use psmrt::scene::Scene;
-use psmrt::tradeoff::evidence::{committed_sweep, grain_points, wall_points};
 use psmrt::tradeoff::knobs::CollisionKnob;
 use psmrt::tradeoff::model::Models;
 use std::fs;
@@ -25,9 +24,8 @@ const SCENES: [&str; 5] = [
     "golden/poiseuille/scene.toml",
 ];
 
-fn models() -> Models {
-    let sweep = committed_sweep().unwrap();
-    Models::fit(&grain_points(&sweep).unwrap(), &wall_points(&sweep))
+fn models() -> &'static Models {
+    Models::committed().unwrap()
 }
 
 /// Engines as fast as on the machine of the README.
@@ -42,7 +40,7 @@ fn load(scene: &str) -> Scene {
 
 fn all_ways(scene: &str) -> (Facts, Vec<Way>) {
     let facts = Facts::of(&load(scene)).unwrap().unwrap();
-    let ways = ways(&facts, &models(), &speeds());
+    let ways = ways(&facts, models(), &speeds());
     (facts, ways)
 }
 
@@ -67,7 +65,7 @@ fn smaller_errors_are_never_cheaper_and_every_plan_keeps_its_word() {
                 assert!((si_length / si_wanted - 1.0).abs() < 1e-12, "{scene}: {best:?}");
             }
             assert!(best.velocity.is_none_or(|u| u <= 0.1), "{best:?}");
-            assert!((0.6..=2.0).contains(&best.tau), "{best:?}");
+            assert!((0.51..=2.0).contains(&best.tau), "{best:?}");
         }
         assert!(planned >= 4, "{scene}: only {planned}");
     }
@@ -86,7 +84,7 @@ fn no_plan_lies_beyond_what_the_maps_of_stability_found() {
             let force = format!("body_force.acceleration=[{:e}, 0.0, 0.0]", times * si_force);
             let hard = Scene::load(Path::new(&scene), &[changes, &[force]].concat()).unwrap();
             let facts = Facts::of(&hard).unwrap().unwrap();
-            let ways = ways(&facts, &models(), &speeds()[..1]);
+            let ways = ways(&facts, models(), &speeds()[..1]);
             // Some of all that are coarse, where the flow is fastest: it has 1/dx cells per step.
             for way in ways.iter().filter(|way| way.resolution < 16.0).step_by(7) {
                 let planned = text(&hard, Path::new(""), way, "").unwrap();
@@ -108,7 +106,7 @@ fn no_plan_lies_beyond_what_the_maps_of_stability_found() {
 fn crowding_and_walls_are_found_from_the_scene() {
     let drag = |scene: &str| match Facts::of(&load(scene)).unwrap().unwrap().limit {
         Limit::Grains { cells, drag, .. } => (cells, drag),
-        Limit::Plates { .. } => panic!("{scene} has grains"),
+        limit => panic!("{scene} has grains, not {limit:?}"),
     };
     // A shaft four diameters wide: 1.82268 (golden/stokes_settling/literature.csv); a quarter of it alike.
     let (cells, shaft) = drag("golden/stokes_settling/scene.toml");
@@ -120,6 +118,30 @@ fn crowding_and_walls_are_found_from_the_scene() {
     // A quarter between mirror planes is as crowded as the whole: 0.2, 7.053.
     let (_, quarter) = drag("golden/tradeoff/bcc.toml");
     assert!((quarter / 7.053179633 - 1.0).abs() < 1e-4, "{quarter}");
+}
+
+#[test]
+fn no_plan_has_a_grain_lighter_than_those_that_stayed_alive() {
+    // golden/stability/movers.csv: of 0.5 times the fluid's density all with the inside given back broke, and
+    // with the inside kept those at tau = 0.55 and more; at 0.51 it was right.
+    for (inside, density, taus) in [
+        ("lagged", 500.0, &[][..]),
+        ("kept", 500.0, &[0.51]),
+        ("kept", 300.0, &[]),
+        ("lagged", 800.0, &[0.51, 0.52, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0]),
+    ] {
+        let changes = [
+            format!("coupling.internal_fluid=\"{inside}\""),
+            format!("grains[0].density={density:.1}"),
+        ];
+        let scene = Scene::load(Path::new("golden/stokes_settling/scene.toml"), &changes).unwrap();
+        let facts = Facts::of(&scene).unwrap().unwrap();
+        let mut found: Vec<f64> =
+            ways(&facts, models(), &speeds()[..1]).iter().map(|way| way.tau).collect();
+        found.sort_by(f64::total_cmp);
+        found.dedup();
+        assert_eq!(found, taus, "relaxation times planned for {density} kg/m3, {inside}");
+    }
 }
 
 #[test]
@@ -218,6 +240,13 @@ fn what_cannot_be_planned_is_said_with_a_way_out() {
     let dense = [&dense[..], &["--set", "grains[0].solid_fraction=0.7", "--error", "1%"]].concat();
     let error = refused(&dense);
     assert!(error.contains("out of reach") && error.contains("ask for more than"), "{error}");
+    assert!(error.contains("as it is: "), "what the scene itself errs by: {error}");
+    // As it is the scene may lie outside the evidence: then which parameter does is said.
+    let error = refused(&[&dense[..], &["--set", "time.tau=2.5"]].concat());
+    assert!(error.contains("as it is: tau = 2.5 is outside the evidence"), "{error}");
+    let light = ["golden/stokes_settling/scene.toml", "--error", "5%"];
+    let error = refused(&[&light[..], &["--set", "grains[0].density=300.0"]].concat());
+    assert!(error.contains("0.30 times the density of the fluid"), "{error}");
 }
 
 #[test]

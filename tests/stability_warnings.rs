@@ -70,8 +70,12 @@ fn grains_too_light_for_the_fluid_inside_are_warned_of() {
         )
     };
     let light = warned(&grain(500.0, "lagged"));
-    assert!(light.len() == 1 && light[0].1.contains("denser"), "{light:?}");
+    // Kept, at tau = 0.51, a grain of 0.5 times was right; of 0.3 times none was.
+    assert!(light.len() == 1 && light[0].1.contains("`time.tau` = 0.51"), "{light:?}");
+    assert!(light[0].1.contains("internal_fluid = \"kept\""), "{light:?}");
     assert_eq!(warned(&grain(500.0, "kept")).len(), 1);
+    let lightest = warned(&grain(300.0, "lagged"));
+    assert!(lightest.len() == 1 && lightest[0].1.contains("denser"), "{lightest:?}");
     assert_eq!(warned(&grain(1000.0, "lagged")), []);
 }
 

@@ -8,6 +8,7 @@ use crate::domain::Domain;
 use crate::forcing::forced_velocity;
 use crate::guard::{Evidence, Guard, Stopped};
 use crate::lattice::{Populations, Vec3, density, momentum};
+use crate::partial_saturation::share_weight;
 use crate::planes::map_planes;
 use crate::setup::{Setup, SetupError};
 use crate::solids::{Load, Solid};
@@ -219,6 +220,26 @@ impl Solver {
     /// Force and torque on each solid during the last step.
     pub fn loads(&self) -> &[Load] {
         &self.loads
+    }
+
+    /// `Σ B_s` over the cells of each solid, where it is now: the volume in which the body force does not
+    /// act on the fluid. With it the forces of a step close the balance of momentum: in a periodic box
+    /// `ΔΣj = V G - Σ_s (F_s + G Σ B_s)`, the sums being those of the step.
+    pub fn displaced(&self) -> Vec<f64> {
+        let mut displaced = vec![0.0; self.loads.len()];
+        if let (Some(phase), Some(coverage)) = (&self.setup.solid_phase, &self.coverage) {
+            let tau = self.setup.collision.tau();
+            for cell in 0..self.setup.domain.cell_count() {
+                let shares = coverage.shares(cell);
+                if !shares.is_empty() {
+                    let epsilons = shares.iter().map(|share| share.epsilon);
+                    share_weight(phase.weighting, tau, epsilons, |s, weight| {
+                        displaced[shares[s].solid] += weight;
+                    });
+                }
+            }
+        }
+        displaced
     }
 
     /// Sets the body force from the next step on; its presence cannot change.

@@ -28,6 +28,7 @@ use thiserror::Error;
 use crate::cases::CaseError;
 use crate::checkpoint::CheckpointError;
 use crate::engine::{Engine, KernelEngine, ReferenceEngine, StartError};
+use crate::estimate::memory;
 use crate::kernel::{Gpu, KernelError, adapters};
 use crate::oracle::files::FilesError;
 use crate::output::folder::FolderError;
@@ -156,15 +157,18 @@ impl CommandError {
 /// The engine that a scene asks for, at its start. With `profiled` it keeps where its time goes, if it
 /// can.
 fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>, CommandError> {
-    let refused = |problem: String| {
-        SceneError::whole_file(&file.display().to_string(), problem, "change the scene").into()
-    };
+    let name = file.display().to_string();
+    let refused =
+        |problem: String| SceneError::whole_file(&name, problem, "change the scene").into();
     if !wants_kernel(scene) {
         if let (EngineKind::Reference, Some(name)) = (scene.engine, &scene.adapter) {
             tell(&format!(
                 "engine.adapter = \"{name}\" of the scene is not used: engine reference computes on the \
                  processor"
             ));
+        }
+        if let Some((problem, remedy)) = memory::shortage(scene) {
+            return Err(SceneError::whole_file(&name, problem, remedy).into());
         }
         let engine = ReferenceEngine::new(scene).map_err(|error| refused(error.to_string()))?;
         return Ok(Box::new(engine));

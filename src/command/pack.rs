@@ -1,6 +1,7 @@
 //! `psmrt pack`: makes a packing of grains and writes it as a list that scenes read.
 
-use std::io::{IsTerminal, Write};
+use std::fs::File;
+use std::io::{BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -11,6 +12,7 @@ use psmrt_reference::grains::packing::periodic::PeriodicPacking;
 use psmrt_reference::grains::packing::{Packing, PackingError, PackingReport, radius_for};
 use serde_json::json;
 
+use super::plan::part;
 use super::say::say;
 use super::{CommandError, write};
 use crate::output::{atomic, grain_list};
@@ -37,8 +39,8 @@ pub struct PackRequest {
     /// Number of grains
     #[arg(long, value_name = "N")]
     pub count: Option<usize>,
-    /// Void volume over volume, of a periodic packing
-    #[arg(long, value_name = "N")]
+    /// Void volume over volume, of a periodic packing: 0.4 or 40%
+    #[arg(long, value_name = "N", value_parser = |text: &str| part(text, "40% or 0.4"))]
     pub porosity: Option<f64>,
     /// Friction while a bed settles; 0 packs dense
     #[arg(long, value_name = "MU", default_value_t = 0.5)]
@@ -63,10 +65,7 @@ const MOST_GRAINS: usize = 1_000_000;
 /// Makes the packing, writes it and says what it is: as text, or as one JSON object.
 pub fn pack(request: &PackRequest, json: bool) -> Result<(), CommandError> {
     let radii = radii(request)?;
-    if request.out.exists() && !request.force {
-        let out = request.out.display();
-        return Err(wrong(format!("{out} is there already: name another file, or add --force")));
-    }
+    may_be_written(request)?;
     let start = Instant::now();
     let bar = spinner(request, radii.len(), json);
     let made = make(request, radii);
@@ -89,7 +88,7 @@ pub fn pack(request: &PackRequest, json: bool) -> Result<(), CommandError> {
         ),
     ];
     let text = grain_list::to_csv(&packing.grains, request.density, &comments);
-    write(&request.out, |path| atomic::write(path, |out| out.write_all(text.as_bytes())))?;
+    save(request, &text)?;
     let seconds = start.elapsed().as_secs_f64();
     let top = packing.grains.iter().map(|grain| grain.position.z + grain.radius);
     let top = top.fold(0.0, f64::max);
@@ -182,6 +181,68 @@ fn radii(request: &PackRequest) -> Result<Vec<f64>, CommandError> {
             "there would be no grain, or more than {MOST_GRAINS}: change size or diameter"
         ))
     })
+}
+
+/// Errors if the list may not have the name that was asked for.
+fn may_be_written(request: &PackRequest) -> Result<(), CommandError> {
+    let out = &request.out;
+    let name = out.display();
+    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        let folder = folder.display();
+        return Err(wrong(format!("--out {name}: there is no folder {folder}: make it first")));
+    }
+    // Of a link this is the link itself: it would be replaced, and not what it leads to.
+    let found = match out.symlink_metadata() {
+        Ok(found) => found.file_type(),
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
+        Err(error) => return Err(wrong(format!("--out {name}: {error}"))),
+    };
+    let problem = if found.is_symlink() {
+        "is a link: name the file that it leads to"
+    } else if found.is_dir() {
+        "is a folder: name a file in it"
+    } else if !found.is_file() {
+        "is a device, pipe or socket and no file: name a file"
+    } else if !request.force {
+        "is there already: name another file, or add --force"
+    } else {
+        return Ok(());
+    };
+    Err(wrong(format!("--out {name} {problem}")))
+}
+
+/// Writes the list. What has appeared under its name in the meantime stays, unless it may be replaced; the
+/// list then gets the next free name.
+fn save(request: &PackRequest, text: &str) -> Result<(), CommandError> {
+    let out = &request.out;
+    let fill = |file: &mut BufWriter<File>| file.write_all(text.as_bytes());
+    if request.force {
+        may_be_written(request)?;
+        return write(out, |path| atomic::write(path, fill));
+    }
+    let is_there = |error: &std::io::Error| error.kind() == ErrorKind::AlreadyExists;
+    match atomic::write_new(out, fill) {
+        Err(error) if is_there(&error) => {}
+        written => return write(out, |_| written),
+    }
+    let stem = out.file_stem().unwrap_or_default().to_string_lossy();
+    let suffix = out.extension().map_or_else(String::new, |s| format!(".{}", s.to_string_lossy()));
+    for number in 2_u64.. {
+        let other = out.with_file_name(format!("{stem}-{number}{suffix}"));
+        match atomic::write_new(&other, fill) {
+            Err(error) if is_there(&error) => {}
+            written => {
+                write(&other, |_| written)?;
+                return Err(wrong(format!(
+                    "--out {} has appeared while the grains were packed and stays; the list is in {}",
+                    out.display(),
+                    other.display()
+                )));
+            }
+        }
+    }
+    Err(wrong(format!("--out {}: every number is taken", out.display())))
 }
 
 /// Shows that it works, and for how long; how long it will take is not known.

@@ -1,26 +1,26 @@
 //! `psmrt plan`: the cheapest way to compute a scene to a given error.
 
-use std::fs::OpenOptions;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use super::plan_text::{percent, print, to_json, words};
+use super::plan_text::{print, to_json, words};
 use super::say::say;
 use super::{CommandError, engine, engine_changes};
 use crate::cases::CaseError;
 use crate::engine::Engine;
 use crate::estimate::calibrate;
 use crate::kernel::adapters;
+use crate::output::atomic;
 use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::{FASTEST, Speed, Way, as_it_is, cheapest, most_accurate, ways};
+use crate::plan::options::{Speed, Way, as_it_is, cheapest, most_accurate, ways, why_none};
+use crate::plan::predict::{Outside, percent};
 use crate::plan::write::text;
 use crate::quote;
 use crate::scene::{EngineKind, Scene};
 use crate::tradeoff::cost::mrt_over_srt;
-use crate::tradeoff::evidence::{committed_sweep, grain_points, wall_points};
 use crate::tradeoff::knobs::CollisionKnob;
 use crate::tradeoff::model::{LEAST_ERROR, Models};
 use crate::tradeoff::{support, trial};
@@ -44,18 +44,25 @@ pub struct PlanRequest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted(pub f64);
 
+/// A part of a whole, as a number or in percent; `example` says how it is written.
+pub(super) fn part(text: &str, example: &str) -> Result<f64, String> {
+    let (number, percent) = match text.trim().strip_suffix('%') {
+        Some(number) => (number.trim_end(), true),
+        None => (text.trim(), false),
+    };
+    let value: Result<f64, _> = number.parse();
+    let value = value
+        .map_err(|_| format!("{} is no number: write it as {example}", quote::quoted(text)))?;
+    // Divided, so that 40% is the same number as 0.4.
+    Ok(if percent { value / 100.0 } else { value })
+}
+
 impl std::str::FromStr for Wanted {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (number, percent) = match text.trim().strip_suffix('%') {
-            Some(number) => (number.trim_end(), true),
-            None => (text.trim(), false),
-        };
-        let value: f64 = number
-            .parse()
-            .map_err(|_| format!("{} is no number: write it as 5% or 0.05", quote::quoted(text)))?;
-        let value = if percent { value / 100.0 } else { value };
+        let value = part(text, "5% or 0.05")?;
+        let percent = text.trim().ends_with('%');
         match value {
             value if value > 0.0 && value < 1.0 => Ok(Wanted(value)),
             value if (1.0..100.0).contains(&value) && !percent => {
@@ -83,32 +90,32 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     let facts = Facts::of(&scene)?
         .map_err(|why| CommandError::Usage(format!("{name} cannot be planned: {why}")))?;
     let wanted = request.error.0;
-    let sweep = committed_sweep()?;
-    let models = Models::fit(&grain_points(&sweep)?, &wall_points(&sweep));
+    let models = Models::committed()?;
+    let speeds = speeds(&scene, request)?;
+    let now = now(&scene, &facts, models, &speeds);
     if matches!(facts.limit, Limit::Grains { .. }) && wanted < LEAST_ERROR {
         return Err(CommandError::Usage(format!(
             "an error of {} is below what the evidence reaches with grains ({}): there the place of a grain \
-             on the grid counts as much as the grid; plan for {} and check it by a finer run",
+             on the grid counts as much as the grid; plan for {} and check it by a finer run{}",
             percent(wanted),
             percent(LEAST_ERROR),
-            percent(LEAST_ERROR)
+            percent(LEAST_ERROR),
+            now_words(&now)
         )));
     }
-    let speeds = speeds(&scene, request)?;
-    let all = ways(&facts, &models, &speeds);
+    let all = ways(&facts, models, &speeds);
     let Some(best) = cheapest(&all, wanted) else {
-        return Err(unreachable_error(&all, wanted, &facts));
+        return Err(unreachable_error(&all, wanted, (&facts, models), &now));
     };
-    let now = now(&scene, &facts, &models, &speeds);
     let alternatives = alternatives(&all, best, wanted);
-    let evidence = evidence(&facts, &models, best)?;
+    let evidence = evidence(&facts, models, best)?;
     if request.json {
         let alternatives: Vec<Value> = alternatives
             .iter()
             .map(|(what, way)| json!({ "what": what, "way": way.map(to_json) }))
             .collect();
         let all = json!({
-            "wanted": wanted, "now": now.as_ref().map(to_json), "plan": to_json(best),
+            "wanted": wanted, "now": now.as_ref().ok().map(to_json), "plan": to_json(best),
             "alternatives": alternatives, "evidence": evidence,
         });
         say(&all.to_string());
@@ -122,12 +129,28 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
 }
 
 /// The scene as it is, on its own engine.
-fn now(scene: &Scene, facts: &Facts, models: &Models, speeds: &[Speed]) -> Option<Way> {
-    let collision = trial::collision_of(&scene.setup.collision)?;
+fn now(scene: &Scene, facts: &Facts, models: &Models, speeds: &[Speed]) -> Result<Way, Outside> {
+    let none = |why: &str| Outside { why: why.to_owned(), nearest: None, may_be_worse: true };
+    let collision = trial::collision_of(&scene.setup.collision)
+        .ok_or_else(|| none("no run of the evidence has its relaxation rates"))?;
     let kernel = scene.engine == EngineKind::Wgpu;
     let engine = if kernel { "wgpu" } else { "reference" };
-    let speed = speeds.iter().find(|speed| speed.engine == engine)?;
-    as_it_is(facts, models, collision, speed)
+    let speed = speeds.iter().find(|speed| speed.engine == engine);
+    as_it_is(facts, models, collision, speed.ok_or_else(|| none("its engine is not there"))?)
+}
+
+/// The scene as it is, at the end of a message.
+fn now_words(now: &Result<Way, Outside>) -> String {
+    match now {
+        Ok(now) => format!(
+            "\nas it is: {} ({} to {}), {}",
+            percent(now.error),
+            percent(now.band[0]),
+            percent(now.band[1]),
+            words(now)
+        ),
+        Err(outside) => format!("\nas it is: {}", outside.why),
+    }
 }
 
 /// The engines that may be proposed, with their speed on this scene and machine: the oracle, and the
@@ -140,11 +163,12 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
         set.extend(engine_changes(Some(kind), None)?);
         let scene = Scene::load(&request.scene, &set)?;
         let mut engine: Box<dyn Engine> = engine(&scene, &request.scene, false)?;
-        let Some([per_second, _]) = calibrate(&scene, engine.as_mut(), CALIBRATION) else {
+        let Some(pace) = calibrate(&scene, engine.as_mut(), CALIBRATION) else {
             let problem =
                 "its first steps fail: `psmrt run` says why; a plan needs a scene that runs";
             return Err(CommandError::Usage(format!("{}: {problem}", request.scene.display())));
         };
+        let per_second = pace.updates_per_second;
         let is_srt = trial::collision_of(&scene.setup.collision) == Some(CollisionKnob::Srt);
         let ratio = mrt_over_srt(kind)?;
         let (srt, mrt) = if is_srt {
@@ -157,19 +181,19 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
     Ok(speeds)
 }
 
-fn unreachable_error(all: &[Way], wanted: f64, facts: &Facts) -> CommandError {
+fn unreachable_error(
+    all: &[Way],
+    wanted: f64,
+    (facts, models): (&Facts, &Models),
+    now: &Result<Way, Outside>,
+) -> CommandError {
+    let now = now_words(now);
     let Some(best) = most_accurate(all, f64::INFINITY) else {
-        let [nx, ny, nz] = facts.cells;
-        return CommandError::Usage(format!(
-            "no grid that fills the box of {nx} x {ny} x {nz} cells lies within the evidence (4 to 23 cells \
-             per diameter, 6 and more between plates, tau 0.6 to 2, {FASTEST} cells per time step at most and \
-             less where golden/stability says so): choose a box whose sides share a larger divisor, or a slower \
-             flow"
-        ));
+        return CommandError::Usage(format!("{}{now}", why_none(facts, models)));
     };
     CommandError::Usage(format!(
         "an error of {} is out of reach within the evidence: the best is {} ({} to {}), {}; ask for more \
-         than {}",
+         than {}{now}",
         percent(wanted),
         percent(best.error),
         percent(best.band[0]),
@@ -214,6 +238,10 @@ fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, C
             Ok(lines)
         }
         Limit::Plates { .. } => Ok(support::of_walls(models, best.collision)),
+        Limit::Duct { ratio, .. } => Ok(vec![format!(
+            "a duct {ratio:.2} times as wide as high: what half-way walls and the grid do to second order is known \
+             in closed form (src/plan/duct.rs); the ducts of golden/duct/expected.csv lie within the band"
+        )]),
     }
 }
 
@@ -242,16 +270,14 @@ fn write_scene(
         file.parent().unwrap_or(Path::new("")),
         &[],
     )?;
-    let mut out =
-        OpenOptions::new().write(true).create_new(true).open(file).map_err(|error| match error
-            .kind()
-        {
+    atomic::write_new(file, |out| out.write_all(text.as_bytes())).map_err(|error| {
+        match error.kind() {
             std::io::ErrorKind::AlreadyExists => CommandError::Usage(format!(
                 "{name} is there already and stays: give --write another name, or remove it"
             )),
             _ => failed(error.to_string()),
-        })?;
-    out.write_all(text.as_bytes()).map_err(|error| failed(error.to_string()))?;
+        }
+    })?;
     if !request.json {
         say(&format!("\nwritten to {name}"));
     }

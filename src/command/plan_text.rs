@@ -6,18 +6,8 @@ use super::check::duration;
 use super::say::say;
 use crate::plan::facts::{Facts, Limit};
 use crate::plan::options::Way;
+use crate::plan::predict::{Outside, percent};
 use crate::scene::Scene;
-
-/// Two digits that count.
-pub(super) fn percent(value: f64) -> String {
-    match 100.0 * value {
-        percent if percent < 0.001 => "< 0.001 %".to_owned(),
-        percent if percent < 0.0995 => format!("{percent:.3} %"),
-        percent if percent < 0.995 => format!("{percent:.2} %"),
-        percent if percent < 9.95 => format!("{percent:.1} %"),
-        percent => format!("{percent:.0} %"),
-    }
-}
 
 /// A way in one line.
 pub(super) fn words(way: &Way) -> String {
@@ -45,17 +35,17 @@ pub(super) fn print(
     scene: &Scene,
     facts: &Facts,
     wanted: f64,
-    now: Option<&Way>,
+    now: Result<&Way, &Outside>,
     best: &Way,
     alternatives: &[(String, Option<&Way>)],
     evidence: &[String],
 ) {
     if !scene.title.is_empty() {
-        say(&format!("{}\n", scene.title));
+        say(&format!("{}\n", crate::quote::lines(&scene.title)));
     }
     let across = match facts.limit {
         Limit::Grains { .. } => "cells across a grain",
-        Limit::Plates { .. } => "cells between walls",
+        Limit::Plates { .. } | Limit::Duct { .. } => "cells between walls",
     };
     say(&format!(
         "  {:<21}{across:>21}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
@@ -74,7 +64,10 @@ pub(super) fn print(
         )),
         None => say(&format!("  {what:<21}none within the evidence")),
     };
-    line("as it is", now);
+    match now {
+        Ok(now) => line("as it is", Some(now)),
+        Err(outside) => say(&format!("  {:<21}{}", "as it is", outside.why)),
+    }
     line(&format!("plan for {}", percent(wanted)), Some(best));
     for (what, way) in alternatives {
         line(what, *way);
@@ -89,6 +82,7 @@ pub(super) fn print(
             "error: of the settling velocity, or of the flow that a given force drives; times are upper limits"
         }
         Limit::Plates { .. } => "error: of the profile (relative L2); times are upper limits",
+        Limit::Duct { .. } => "error: of the mean velocity; times are upper limits",
     });
     say("\nthe evidence");
     for line in evidence {

@@ -98,9 +98,13 @@ pub trait Engine {
     /// Force and torque of the fluid on each solid during the last step.
     fn loads(&self) -> Vec<Load>;
 
+    /// `Σ B_s` over the cells of each solid, where it is now, in cells: the body force does not act on the
+    /// fluid there, and is no part of the loads.
+    fn displaced(&self) -> Vec<f64>;
+
     /// Writes all that it needs to go on from here, bit for bit.
     fn save(&self, out: &mut dyn Write) -> io::Result<()>;
 
-    /// Takes the state that [`Engine::save`] wrote for the same scene.
+    /// Takes the state that [`Engine::save`] wrote for the same scene. After an error it is of no use.
     fn load(&mut self, from: &mut dyn Read) -> io::Result<()>;
 }

@@ -3,6 +3,7 @@
 use std::io::{self, Read, Write};
 
 use psmrt_reference::coupling::{CoupledSolver, CoupledStop, CouplingError};
+use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::forcing::forced_velocity;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::guard::Evidence;
@@ -144,6 +145,10 @@ impl Engine for ReferenceEngine {
         self.fluid().loads().to_vec()
     }
 
+    fn displaced(&self) -> Vec<f64> {
+        self.fluid().displaced()
+    }
+
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
         let Memory { steps, loads, evidence } = self.fluid().memory();
         put_whole(out, steps)?;
@@ -188,24 +193,37 @@ impl Engine for ReferenceEngine {
             last_max_speed: real(from)?,
         };
         expect(whole(from)?, setup.domain.cell_count(), "cells")?;
-        let mut f = self.fluid().populations().to_vec();
+        let part = match &self.state {
+            State::Fluid(_) => None,
+            State::Coupled(_, part) => Some(part.clone()),
+        };
+        // The old state makes room: with both a run would need twice the memory to be resumed.
+        self.state = State::Fluid(Box::new(single_cell(&setup)?));
+        let mut f: Vec<Populations> = vec![[0.0; 19]; setup.domain.cell_count()];
         for population in f.iter_mut().flatten() {
             *population = real(from)?;
         }
         let memory = Memory { steps, loads, evidence };
-        match &mut self.state {
-            State::Fluid(solver) => {
-                **solver = Solver::going_on_from(setup, f, memory).map_err(io::Error::other)?;
+        self.state = match part {
+            None => {
+                let solver = Solver::going_on_from(setup, f, memory).map_err(io::Error::other)?;
+                State::Fluid(Box::new(solver))
             }
-            State::Coupled(solver, part) => {
-                let (grains, last) = free_state::load(from, part)?;
+            Some(part) => {
+                let (grains, last) = free_state::load(from, &part)?;
                 let (fluid, grains) = ((setup, f, memory), (part.setup, grains));
-                **solver = CoupledSolver::going_on_from(fluid, grains, part.settings, last)
-                    .map_err(io::Error::other)?;
+                let solver = CoupledSolver::going_on_from(fluid, grains, part.settings, last);
+                State::Coupled(Box::new(solver.map_err(io::Error::other)?), part)
             }
-        }
+        };
         Ok(())
     }
+}
+
+/// The same fluid, as little of it as there can be.
+fn single_cell(setup: &Setup) -> io::Result<Solver> {
+    let domain = Domain::new([1, 1, 1], Faces::PERIODIC).map_err(io::Error::other)?;
+    Solver::new(Setup::fluid(domain, setup.collision)).map_err(io::Error::other)
 }
 
 /// The set-up with a solid phase that waits for its grains.

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use std::io::{self, Read, Write};
 use std::sync::Arc;
 
-use psmrt_reference::coupling::{CoupledStop, FreeGrains};
+use psmrt_reference::coupling::{CoupledStop, FreeGrains, Gravity, with_displaced};
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
@@ -114,7 +114,12 @@ impl KernelEngine {
     fn move_solids(&mut self) -> Result<(), EngineStop> {
         let solids = match &mut self.grains {
             Some((grains, _)) => {
-                let loads = self.kernel.loads()?;
+                let (loads, displaced) = self.kernel.loads_with_displaced()?;
+                let balance = grains.settings().gravity.zip(self.kernel.setup().body_force);
+                let loads = match balance {
+                    Some((Gravity::Balanced { .. }, g)) => with_displaced(&loads, &displaced, g),
+                    _ => loads,
+                };
                 let since = self.profile.map(|_| Beginning::now());
                 grains.step(&loads).map_err(CoupledStop::from)?;
                 let solids = grains.solids();
@@ -257,6 +262,10 @@ impl Engine for KernelEngine {
     fn loads(&self) -> Vec<Load> {
         let broken = Load { force: Vec3::repeat(f64::NAN), torque: Vec3::repeat(f64::NAN) };
         self.observed(self.kernel.loads()).unwrap_or_else(|| vec![broken; self.solids().len()])
+    }
+
+    fn displaced(&self) -> Vec<f64> {
+        self.kernel.displaced()
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -9,16 +9,12 @@ use psmrt_reference::grains::motion::Substeps;
 use psmrt_reference::lattice::{Vec3, viscosity};
 
 use super::{Number, number};
+use crate::scene::check::hardness::{Burden, Overlaps};
 use crate::scene::{FreePart, Scene};
 
 /// Gravity, and what of a grain's mass it acts on.
 fn pull(part: &FreePart) -> Vec3 {
-    match part.settings.gravity {
-        Some(Gravity::Reduced { acceleration } | Gravity::OnFluidToo { acceleration }) => {
-            acceleration
-        }
-        None => Vec3::zeros(),
-    }
+    part.settings.gravity.map_or_else(Vec3::zeros, |gravity| gravity.acceleration())
 }
 
 /// Weight less buoyancy, lattice units.
@@ -27,7 +23,7 @@ fn buoyant_weight(part: &FreePart, grain: &Grain) -> f64 {
 }
 
 /// The grains that move.
-pub(super) fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
+pub(crate) fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
     part.grains.iter().filter(|grain| !grain.held)
 }
 
@@ -41,19 +37,10 @@ pub(super) fn stokes_velocity(scene: &Scene) -> f64 {
     free(part).map(velocity).fold(0.0, f64::max)
 }
 
-/// How deep weight presses a grain into the floor, in its diameters: alone, and under all others.
-pub(super) fn overlaps(scene: &Scene, part: &FreePart) -> [f64; 2] {
-    let stiffness = part.setup.law.stiffness;
-    let depth = |grain: &Grain| buoyant_weight(part, grain) / (stiffness * 2.0 * grain.radius);
-    let alone = free(part).map(depth).fold(0.0, f64::max);
-    // The weight of all, spread over the area that gravity sees: on a grain of diameter d its d².
-    let g = pull(part);
-    let along = (0..3).max_by(|&a, &b| g[a].abs().total_cmp(&g[b].abs())).unwrap_or(2);
-    let cells = scene.setup.domain.cells().map(|n| n as f64);
-    let area: f64 = (0..3).filter(|&axis| axis != along).map(|axis| cells[axis]).product();
-    let weight: f64 = free(part).map(|grain| buoyant_weight(part, grain)).sum();
-    let diameter = free(part).map(|grain| 2.0 * grain.radius).fold(0.0, f64::max);
-    [alone, alone.max(weight / area * diameter / stiffness)]
+/// What weight and impacts do to the contacts.
+pub(super) fn burden(scene: &Scene, part: &FreePart) -> Burden {
+    let nu = viscosity(scene.setup.collision.tau());
+    Burden::new(&part.grains, &pull(part), &scene.setup.domain, nu)
 }
 
 /// The derived numbers.
@@ -89,11 +76,16 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")),
     ];
     if settle > 0.0 {
-        let [alone, under] = overlaps(scene, part);
+        let Overlaps { in_bed, one_on_one, in_impact } =
+            burden(scene, part).overlaps(law.stiffness);
         let note = format!("{settle:.2e} cells per time step; of the fastest grain, alone");
         numbers.push(number("Stokes velocity", settle * units.si_velocity(), "m/s", note));
-        let note = format!("of a diameter, by its weight; {under:.1e} under all others");
-        numbers.push(number("overlap", alone, "", note));
+        let note = "of a diameter: the heaviest grain at rest on the smallest";
+        numbers.push(number("overlap", one_on_one, "", note));
+        let note = "of a diameter: the mean, at the bottom of a bed of all free grains";
+        numbers.push(number("overlap in a bed", in_bed, "", note));
+        let note = "of the smallest diameter: the heaviest grain falls on the smallest";
+        numbers.push(number("overlap of impact", in_impact, "", note));
     }
     numbers
 }
@@ -133,6 +125,12 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
     match settings.gravity {
         Some(Gravity::Reduced { .. }) => {
             models.push("gravity: reduced pressure, grains carry weight less buoyancy".to_owned());
+        }
+        Some(Gravity::Balanced { .. }) => {
+            models.push(
+                "gravity: reduced pressure, the net weight of all grains carried by a uniform pressure gradient"
+                    .to_owned(),
+            );
         }
         Some(Gravity::OnFluidToo { .. }) => {
             models.push("gravity: as a body force on the fluid, and on the grains".to_owned());

@@ -3,8 +3,10 @@
 use psmrt_reference::domain::Face;
 use psmrt_reference::solids::Shape;
 
-use super::{Number, diameters, grains, number, si_velocity};
-use crate::scene::check::domain::BYTES_PER_CELL;
+use super::bed::bed;
+use super::warnings::accuracy::{outlook, subject};
+use super::{Number, diameters, grains, memory, number, si_velocity};
+use crate::plan::predict::Outside;
 use crate::scene::{EngineKind, Scene};
 
 /// The length for the Reynolds number, m, and what it is.
@@ -23,6 +25,20 @@ fn si_length(scene: &Scene) -> (f64, &'static str) {
     }
 }
 
+/// The error that `psmrt plan` predicts of the scene as it is.
+fn predicted_error(scene: &Scene) -> Option<Number> {
+    let subject = subject(scene);
+    let (found, note) = match outlook(scene)?.found {
+        Ok(found) => (found, format!("of {subject}")),
+        Err(Outside { why, nearest, .. }) => {
+            (nearest?, format!("of {subject}, at the nearest point of the evidence: {why}"))
+        }
+    };
+    let [low, high] = found.band.map(|value| 100.0 * value);
+    let note = format!("{low:.2} to {high:.2} %, {note}");
+    Some(number("predicted error", 100.0 * found.error, "%", note))
+}
+
 /// The derived numbers.
 pub fn numbers(scene: &Scene) -> Vec<Number> {
     let (units, tau) = (&scene.units, scene.setup.collision.tau());
@@ -32,7 +48,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
         number("cells", count as f64, "", format!("{} x {} x {}", cells[0], cells[1], cells[2])),
         number("dx", units.si_dx, "m", "edge of a cell"),
         number("dt", units.si_dt, "s", "time step"),
-        number("tau", tau, "", "relaxation time; 0.6 to 1 is usual"),
+        number("tau", tau, "", "relaxation time; errors of grains grow with it"),
         number("velocity scale", units.si_velocity(), "m/s", "one cell per time step"),
     ];
     if let Some((si_speed, source)) = si_velocity(scene) {
@@ -62,14 +78,23 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
             .sum();
         numbers.push(number("solid fraction", volume / count as f64, "", "grains over box"));
     }
+    if let Some(bed) = bed(scene) {
+        let [x, y, z] = bed.reaches;
+        let note = format!(
+            "of the bed at cells {:.0} to {:.0}, {:.0} to {:.0}, {:.0} to {:.0}",
+            x[0], x[1], y[0], y[1], z[0], z[1]
+        );
+        numbers.push(number("solid fraction there", bed.fraction, "", note));
+    }
+    numbers.extend(predicted_error(scene));
     numbers.extend(grains::numbers(scene));
-    // Two copies of 19 populations of 4 bytes on a device.
-    let (engine, bytes) = match scene.engine {
-        EngineKind::Wgpu => ("wgpu", 2 * 19 * 4),
-        EngineKind::Reference | EngineKind::Auto => ("reference", BYTES_PER_CELL),
+    let engine = match scene.engine {
+        EngineKind::Wgpu => "wgpu",
+        EngineKind::Reference | EngineKind::Auto => "reference",
     };
-    let memory = (count as u64 * bytes) as f64 / f64::from(1 << 20);
-    numbers.push(number("memory", memory, "MiB", format!("populations, engine {engine}")));
+    let parts: Vec<_> = memory::parts(scene).iter().map(|part| part.what).collect();
+    let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
+    numbers.push(number("memory", mib, "MiB", format!("{}; engine {engine}", parts.join(", "))));
     let written = super::disk::bytes(scene);
     let note = "of records and checkpoints, at most";
     numbers.push(number("disk", written / f64::from(1 << 20), "MiB", note));

@@ -1,13 +1,14 @@
 //! What looks risky about a scene, one topic a file. `psmrt check` prints all of it, and `psmrt run` and
 //! `psmrt resume` before they start.
 
-mod accuracy;
+pub(crate) mod accuracy;
 mod contacts;
 mod density;
 mod ends;
 mod faces;
 mod gravity;
 mod lists;
+mod prescribed;
 mod records;
 mod scales;
 pub(crate) mod stability;
@@ -26,6 +27,7 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     gravity::warnings,
     density::warnings,
     contacts::warnings,
+    prescribed::warnings,
     stability::warnings,
     lists::warnings,
     records::warnings,

@@ -169,6 +169,22 @@ impl Coverage {
         weights
     }
 
+    /// `Σ B_s` over the cells of each solid.
+    pub(super) fn displaced(&self, weighting: Weighting, tau: f64) -> Vec<f64> {
+        let mut displaced = vec![0.0; self.covers.len()];
+        for (solid, cover) in self.covers.iter().enumerate() {
+            for Touch { cell, epsilon, .. } in &cover.touches {
+                let sum = match self.met(*cell) {
+                    [] => *epsilon,
+                    all => all.iter().map(|&(_, number)| self.touch(number).1.epsilon).sum(),
+                };
+                // B_s = B_t ε_s / Σ ε_s
+                displaced[solid] += weight(weighting, sum, tau) * epsilon / sum;
+            }
+        }
+        displaced
+    }
+
     /// The tables for the device.
     pub(super) fn tables(&self, phase: &SolidPhase, tau: f64) -> Tables {
         let none = Tables {

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::{Backends, BufferUsages, DeviceType, ErrorFilter};
 
 use super::error::KernelError;
+use super::quiet::quietly;
 
 /// What an adapter says about itself.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,8 +67,10 @@ impl AdapterFacts {
 fn all_adapters() -> Vec<wgpu::Adapter> {
     let mut description = wgpu::InstanceDescriptor::new_without_display_handle();
     description.backends = Backends::VULKAN | Backends::METAL | Backends::DX12;
-    let instance = wgpu::Instance::new(description);
-    let mut adapters = pollster::block_on(instance.enumerate_adapters(Backends::all()));
+    let mut adapters = quietly(|| {
+        let instance = wgpu::Instance::new(description);
+        pollster::block_on(instance.enumerate_adapters(Backends::all()))
+    });
     // The fastest kind first; the order of the driver among equals.
     adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
         DeviceType::DiscreteGpu => 0,

@@ -9,15 +9,13 @@ use super::layout::Layout;
 /// error too.
 pub(super) fn check(adapter: &AdapterFacts, layout: &Layout) -> Result<(), KernelError> {
     let needed = layout.bytes_of_both();
-    match crate::machine::memory_bytes() {
-        Some(available) if adapter.is_software() && needed > available => {
-            Err(KernelError::TooLarge {
-                what: "two copies of the populations",
-                needed,
-                available,
-                adapter: adapter.name.clone(),
-            })
-        }
+    match crate::machine::available() {
+        Some(left) if adapter.is_software() && needed > left.bytes => Err(KernelError::TooLarge {
+            what: "two copies of the populations",
+            needed,
+            available: left.bytes,
+            adapter: adapter.name.clone(),
+        }),
         _ => Ok(()),
     }
 }

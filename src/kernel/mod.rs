@@ -2,7 +2,7 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `device.rs` | adapters, and the device opened on one |
+//! | `device.rs`, `quiet.rs` | adapters, and the device opened on one |
 //! | `layout.rs`, `field.rs`, `table.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
@@ -35,6 +35,7 @@ mod memory;
 mod movable;
 mod numbers;
 mod pipeline;
+mod quiet;
 mod sight;
 mod solids;
 mod sphere;

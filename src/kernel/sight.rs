@@ -20,16 +20,34 @@ const SLICE: usize = 1 << 18;
 impl Kernel {
     /// Force and torque on each solid during the last step.
     pub fn loads(&self) -> Result<Vec<Load>, KernelError> {
-        let Some(solids) = &self.solids else { return Ok(Vec::new()) };
+        Ok(self.loads_with_displaced()?.0)
+    }
+
+    /// The same, and `Σ B_s` over the cells that each solid had in that step: the volume in which a body
+    /// force did not act on the fluid.
+    pub fn loads_with_displaced(&self) -> Result<(Vec<Load>, Vec<f64>), KernelError> {
+        let Some(solids) = &self.solids else { return Ok(Default::default()) };
         let since = self.watch.begin();
         let bytes = self.gpu.read(solids.loads.buffer(), 32 * u64::from(solids.solid_count))?;
         self.watch.add(since, |times| &mut times.transfers);
         let rows: &[[f32; 4]] = bytemuck::cast_slice(&bytes);
         let vector = |row: &[f32; 4]| Vec3::new(row[0].into(), row[1].into(), row[2].into());
-        Ok(rows
-            .chunks_exact(2)
-            .map(|load| Load { force: vector(&load[0]), torque: vector(&load[1]) })
-            .collect())
+        let each = |load: &[[f32; 4]]| {
+            let [force, torque] = [vector(&load[0]), vector(&load[1])];
+            (Load { force, torque }, f64::from(load[0][3]))
+        };
+        Ok(rows.chunks_exact(2).map(each).unzip())
+    }
+
+    /// `Σ B_s` over the cells of each solid, where it is now.
+    pub fn displaced(&self) -> Vec<f64> {
+        match (&self.solids, &self.setup.solid_phase) {
+            (Some(solids), Some(phase)) => {
+                let tau = self.setup.collision.tau();
+                solids.coverage(&self.setup.domain, phase).displaced(phase.weighting, tau)
+            }
+            _ => Vec::new(),
+        }
     }
 
     /// Populations of the cells of the given numbers before their next collision, in their order.

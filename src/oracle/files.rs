@@ -13,6 +13,7 @@ use super::judge::ratio;
 use super::kit::{Kit, KitError};
 use super::manifest::{ArrayEntry, FORMAT, Manifest, candidate_schema, kit_schema};
 use super::{KIT_VERSION, npy};
+use crate::{input, quote};
 
 /// How far kits that were made on different machines may differ, in double precision's epsilon times
 /// the gauge: their mathematical libraries and instructions round differently.
@@ -52,11 +53,11 @@ pub enum FilesError {
 
 impl FilesError {
     pub(super) fn io(path: &Path, error: std::io::Error) -> Self {
-        FilesError::Io { path: path.display().to_string(), error }
+        FilesError::Io { path: quote::path(path), error }
     }
 
     pub(super) fn bad(path: &Path, problem: &dyn std::fmt::Display, remedy: &str) -> Self {
-        let (path, problem) = (path.display().to_string(), problem.to_string());
+        let (path, problem) = (quote::path(path), quote::lines(&problem.to_string()));
         FilesError::Bad { path, problem, remedy: remedy.to_owned() }
     }
 }
@@ -144,22 +145,28 @@ pub fn export(folder: &Path) -> Result<(usize, usize), FilesError> {
     Ok((files.len(), files.values().map(Vec::len).sum()))
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, FilesError> {
-    fs::read(path).map_err(|error| FilesError::io(path, error))
+/// Bytes that a manifest may have.
+pub(super) const LARGEST_MANIFEST: u64 = 16 * input::MIB;
+
+/// Bytes that an array may have; those of the kit have less than a MiB.
+pub(super) const LARGEST_ARRAY: u64 = 256 * input::MIB;
+
+fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FilesError> {
+    input::read(path, most).map_err(|error| FilesError::io(path, error.into()))
 }
 
 /// Reads an array.
 pub(super) fn read_array(path: &Path) -> Result<Array, FilesError> {
-    let bytes = read_bytes(path)?;
+    let bytes = read_bytes(path, LARGEST_ARRAY)?;
     npy::read(&bytes).map_err(|error| FilesError::bad(path, &error, EXPORT_ANEW))
 }
 
 /// Reads the manifest of a kit of this version.
 pub fn read_manifest(folder: &Path) -> Result<Manifest, FilesError> {
     let path = folder.join("manifest.json");
-    let text = fs::read_to_string(&path).map_err(|error| FilesError::io(&path, error))?;
-    let found: serde_json::Value =
-        serde_json::from_str(&text).map_err(|error| FilesError::bad(&path, &error, EXPORT_ANEW))?;
+    let bytes = read_bytes(&path, LARGEST_MANIFEST)?;
+    let found: serde_json::Value = serde_json::from_slice(&bytes)
+        .map_err(|error| FilesError::bad(&path, &error, EXPORT_ANEW))?;
     if found["format"] != FORMAT {
         let problem = "it is not the manifest of a kit";
         return Err(FilesError::bad(
@@ -185,7 +192,7 @@ pub fn verify(kit: &Kit, folder: &Path) -> Result<(), FilesError> {
     let own = Manifest::new(kit);
     read_manifest(folder)?;
     let path = folder.join("manifest.json");
-    if read_bytes(&path)? != json_bytes(&serde_json::json!(own)) {
+    if read_bytes(&path, LARGEST_MANIFEST)? != json_bytes(&serde_json::json!(own)) {
         return Err(FilesError::bad(&path, &"it is not as this psmrt writes it", EXPORT_ANEW));
     }
     let arrays = arrays(kit, &own);
@@ -198,7 +205,9 @@ pub fn compare_folders(one: &Path, two: &Path) -> Result<f64, FilesError> {
     let manifest = read_manifest(one)?;
     read_manifest(two)?;
     let path = two.join("manifest.json");
-    if read_bytes(&path)? != read_bytes(&one.join("manifest.json"))? {
+    if read_bytes(&path, LARGEST_MANIFEST)?
+        != read_bytes(&one.join("manifest.json"), LARGEST_MANIFEST)?
+    {
         let problem = format!("it is not that of {}", one.display());
         return Err(FilesError::bad(&path, &problem, EXPORT_ANEW));
     }

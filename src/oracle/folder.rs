@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 
 use super::KIT_VERSION;
 use super::array::Array;
-use super::files::{FilesError, json_bytes, npy_bytes, write_all};
+use super::files::{self, FilesError, json_bytes, npy_bytes, write_all};
 use super::judge::Submission;
 use super::kit::Kit;
 use super::manifest::CandidateManifest;
 use super::npy;
 use super::order::DirectionOrder;
+use crate::{input, quote};
 
 /// Reads the answers in `folder`. Errors if the manifest cannot be used; an array that cannot be used is
 /// a wrong answer with its reason.
@@ -48,7 +49,8 @@ pub fn read(kit: &Kit, folder: &Path) -> Result<Submission, FilesError> {
             _ => unasked.push(name),
         }
     }
-    Ok(Submission { name: manifest.name, precision: manifest.precision, order, answers, unasked })
+    let name = quote::shown(&manifest.name);
+    Ok(Submission { name, precision: manifest.precision, order, answers, unasked })
 }
 
 /// Writes the answers of an engine into `folder`, which must be empty or absent, as [`read`] and `psmrt
@@ -75,10 +77,10 @@ pub fn write(kit: &Kit, submission: &Submission, folder: &Path) -> Result<(), Fi
 fn manifest(path: &Path) -> Result<CandidateManifest, FilesError> {
     let remedy = "write e.g. {\"name\": \"my code\", \"precision\": \"f32\", \"kit_version\": 1}: see \
                   candidate.schema.json in the kit";
-    let text = fs::read_to_string(path)
-        .map_err(|error| FilesError::bad(path, &format!("it cannot be read ({error})"), remedy))?;
+    let bytes = input::read(path, files::LARGEST_MANIFEST)
+        .map_err(|error| FilesError::bad(path, &error, remedy))?;
     let manifest: CandidateManifest =
-        serde_json::from_str(&text).map_err(|error| FilesError::bad(path, &error, remedy))?;
+        serde_json::from_slice(&bytes).map_err(|error| FilesError::bad(path, &error, remedy))?;
     if manifest.kit_version != KIT_VERSION {
         let problem = format!("kit_version = {}, the kit's is {KIT_VERSION}", manifest.kit_version);
         return Err(FilesError::bad(path, &problem, "answer the kit of this version"));
@@ -101,6 +103,6 @@ fn file_name(path: &Path) -> String {
 }
 
 fn array(path: &Path) -> Result<Array, String> {
-    let bytes = fs::read(path).map_err(|error| format!("it cannot be read: {error}"))?;
+    let bytes = input::read(path, files::LARGEST_ARRAY).map_err(|error| error.to_string())?;
     npy::read(&bytes).map_err(|error| error.to_string())
 }

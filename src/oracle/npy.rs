@@ -24,7 +24,8 @@ pub enum NpyError {
     Header(&'static str),
     /// A type of values that is not read.
     #[error(
-        "its values are of type {0:?}: save it as float64, float32, float16 or an integer, little-endian"
+        "its values are of type {}: save it as float64, float32, float16 or an integer, little-endian",
+        crate::quote::quoted(.0)
     )]
     Type(String),
 }

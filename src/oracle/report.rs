@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::diagnosis::Diagnosis;
 use super::judge::{Judged, LIMIT, Outcome, Verdict};
 use super::problem::STAGES;
+use crate::quote;
 
 /// Problems that the diagnosis goes into; the rest is in the JSON.
 const PLACES_SHOWN: usize = 6;
@@ -56,7 +57,7 @@ impl fmt::Display for Verdict {
             };
             writeln!(out, "    {problem}/{answer}: {why}")?;
         }
-        for name in &self.unasked {
+        for name in self.unasked.iter().map(|name| quote::shown(name)) {
             writeln!(out, "  warning: {name} is no answer that the kit asks for: ignored")?;
         }
         if let Some(diagnosis) = &self.diagnosis {

@@ -33,7 +33,7 @@ const PROFILE_COLUMNS: [Column; 8] = [
 ];
 
 /// The columns of a record of kind `loads`, after time and step.
-const LOAD_COLUMNS: [Column; 17] = [
+const LOAD_COLUMNS: [Column; 20] = [
     Column::new("grain", ""),
     Column::new("x", "m"),
     Column::new("y", "m"),
@@ -51,6 +51,11 @@ const LOAD_COLUMNS: [Column; 17] = [
     Column::new("torque_x", "N m"),
     Column::new("torque_y", "N m"),
     Column::new("torque_z", "N m"),
+    // What the body force lacks in the cells of the grain: the buoyancy in the pressure gradient that it
+    // stands for.
+    Column::new("displaced_force_x", "N"),
+    Column::new("displaced_force_y", "N"),
+    Column::new("displaced_force_z", "N"),
 ];
 
 /// The columns of a record of loads that can be summed over the grains and become steady.
@@ -238,15 +243,21 @@ pub fn profile_rows(
 }
 
 /// The values of the columns of a record of loads, grain by grain.
-pub fn load_rows(scene: &Scene, engine: &dyn Engine) -> Vec<[f64; 17]> {
+pub fn load_rows(scene: &Scene, engine: &dyn Engine) -> Vec<[f64; 20]> {
     let units = &scene.units;
     let mut rows = Vec::new();
-    for (number, (solid, load)) in engine.solids().iter().zip(engine.loads()).enumerate() {
+    let solids = engine.solids();
+    // G Σ B_s
+    let displaced: Vec<Vec3> = match scene.setup.body_force {
+        Some(g) => engine.displaced().into_iter().map(|volume| volume * g).collect(),
+        None => vec![Vec3::zeros(); solids.len()],
+    };
+    for (number, (solid, load)) in solids.iter().zip(engine.loads()).enumerate() {
         let diameter = match solid.shape {
             Shape::Sphere { radius } => 2.0 * radius,
             Shape::Cells { .. } => 0.0,
         };
-        let mut row = [0.0; 17];
+        let mut row = [0.0; 20];
         row[0] = number as f64;
         row[4] = diameter * units.si_dx;
         for (first, vector) in [
@@ -255,6 +266,7 @@ pub fn load_rows(scene: &Scene, engine: &dyn Engine) -> Vec<[f64; 17]> {
             (8, solid.spin * units.si_spin()),
             (11, load.force * units.si_force()),
             (14, load.torque * units.si_torque()),
+            (17, displaced[number] * units.si_force()),
         ] {
             row[first..first + 3].copy_from_slice(vector.as_slice());
         }

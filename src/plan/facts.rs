@@ -3,14 +3,19 @@
 
 use std::f64::consts::PI;
 
+use psmrt_reference::coupling::InternalFluid;
 use psmrt_reference::domain::Face;
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::lattice::viscosity;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::solids::Solid;
 
+use super::duct::Duct;
 use crate::cases::{CaseError, Table};
+use crate::estimate::bed::{Bed, bed};
+use crate::estimate::grains::free;
 use crate::estimate::si_velocity;
-use crate::estimate::spheres::spheres;
+use crate::estimate::spheres::{solid_fraction, spheres};
 use crate::estimate::warnings::stability::mapped;
 use crate::scene::Scene;
 use crate::stability::limits::Measured;
@@ -31,11 +36,31 @@ pub enum Limit {
         /// Where that comes from.
         because: String,
     },
-    /// Its walls; there are no grains.
+    /// Two plates that face each other; there are no grains.
     Plates {
         /// Cells from wall to wall.
         cells: f64,
     },
+    /// Four walls of a duct, along which a force drives the flow; there are no grains.
+    Duct {
+        /// Cells across its short side.
+        cells: f64,
+        /// Its long side over its short one, and what follows from it.
+        ratio: f64,
+        /// What the error rests on.
+        duct: Duct,
+    },
+}
+
+impl Limit {
+    /// Cells across the smallest grain, or from wall to wall.
+    pub fn cells(&self) -> f64 {
+        match *self {
+            Limit::Grains { cells, .. } | Limit::Plates { cells } | Limit::Duct { cells, .. } => {
+                cells
+            }
+        }
+    }
 }
 
 /// The facts of a scene.
@@ -60,6 +85,8 @@ pub struct Facts {
     /// The flow of the maps of stability that it is held to, and its velocity there, m/s; `None` if no
     /// velocity is known.
     pub mapped: Option<(Measured, f64)>,
+    /// Density of the lightest free grain over the fluid's, and what becomes of the fluid inside.
+    pub lightest: Option<(f64, InternalFluid)>,
     /// Longest time that the scene may run, s.
     pub si_time: f64,
 }
@@ -75,18 +102,10 @@ impl Facts {
         let nu = viscosity(setup.collision.tau());
         let mut velocity = si_velocity(scene).map(|(si_velocity, _)| si_velocity);
         let limit = if spheres.is_empty() {
-            let gap = (0..3).filter(|&axis| {
-                let faces = setup.domain.faces().axis(axis);
-                faces.iter().all(|face| matches!(face, Face::Wall { .. }))
-            });
-            let Some(gap) = gap.map(|axis| cells[axis]).min() else {
-                return Ok(Err(
-                    "it has neither grains nor two walls that face each other: there is \
-                               no error that the evidence knows"
-                        .to_owned(),
-                ));
-            };
-            Limit::Plates { cells: gap as f64 }
+            match walls(scene) {
+                Ok(limit) => limit,
+                Err(why) => return Ok(Err(why)),
+            }
         } else {
             let smallest = spheres.iter().map(|s| 2.0 * s.1).fold(f64::INFINITY, f64::min);
             let (drag, because) = drag(scene, &spheres)?;
@@ -127,17 +146,81 @@ impl Facts {
             si_velocity: velocity,
             mapped: mapped(scene)
                 .map(|(measured, _, speed, _)| (measured, speed * units.si_velocity())),
+            lightest: lightest(scene),
             si_time: scene.stop.steps as f64 * units.si_dt,
         }))
     }
+}
+
+/// The walls that limit a scene without grains; if they do so in no way that is known, why not.
+fn walls(scene: &Scene) -> Result<Limit, String> {
+    let domain = &scene.setup.domain;
+    let faces = [0, 1, 2].map(|axis| domain.faces().axis(axis));
+    let is_open = |face: &Face| {
+        matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow | Face::Pressure { .. })
+    };
+    if faces.iter().flatten().any(is_open) {
+        return Err("fluid enters or leaves through its faces, which changes a flow between walls by more than \
+                    the grid does (reference/ERRATA.md): the evidence has periodic flows that a force or a \
+                    moving wall drives"
+            .to_owned());
+    }
+    // From wall to wall; a mirror stands in the middle.
+    let gap = |axis: usize| {
+        let walls = faces[axis].iter().filter(|face| matches!(face, Face::Wall { .. })).count();
+        let mirrors = faces[axis].iter().filter(|face| **face == Face::FreeSlip).count();
+        let cells = domain.cells()[axis] as f64;
+        match (walls, mirrors) {
+            (2, 0) => Some(cells),
+            (1, 1) => Some(2.0 * cells),
+            _ => None,
+        }
+    };
+    let gaps = [0, 1, 2].map(gap);
+    let across: Vec<f64> = gaps.iter().copied().flatten().collect();
+    match across[..] {
+        [] => Err(
+            "it has neither grains nor two walls that face each other: there is no error that the \
+                   evidence knows"
+                .to_owned(),
+        ),
+        [cells] => Ok(Limit::Plates { cells }),
+        [a, b] => {
+            let still = |face: &Face| match face {
+                Face::Wall { velocity } => velocity.norm() == 0.0,
+                _ => true,
+            };
+            let is_along = scene.setup.body_force.is_some_and(|force| {
+                (0..3).all(|axis| gaps[axis].is_none() == (force[axis] != 0.0))
+            });
+            if !is_along || !faces.iter().flatten().all(still) {
+                return Err("it has walls along two axes, and not just a force along the third that drives \
+                            the flow of a duct: there is no error that the evidence knows"
+                    .to_owned());
+            }
+            let ratio = a.max(b) / a.min(b);
+            Ok(Limit::Duct { cells: a.min(b), ratio, duct: Duct::new(ratio) })
+        }
+        _ => Err("it has walls on all sides: there is no error that the evidence knows".to_owned()),
+    }
+}
+
+/// The density of the lightest free grain over that of the fluid, and what becomes of the fluid inside.
+pub(crate) fn lightest(scene: &Scene) -> Option<(f64, InternalFluid)> {
+    let part = scene.free.as_ref()?;
+    let ratio =
+        |grain: &Grain| grain.mass / (part.settings.fluid_density * sphere_volume(grain.radius));
+    let lightest = free(part).map(ratio).reduce(f64::min)?;
+    Some((lightest, part.settings.internal_fluid))
 }
 
 /// Drag over Stokes' drag: that of a face-centred array as crowded, or of a shaft as narrow, whichever is
 /// larger; and what it was taken from.
 fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), CaseError> {
     let domain = &scene.setup.domain;
-    let volume: f64 = spheres.iter().map(|s| s.2 * 4.0 / 3.0 * PI * s.1.powi(3)).sum();
-    let fraction = volume / domain.cell_count() as f64;
+    let whole = solid_fraction(scene);
+    let bed = bed(scene);
+    let fraction = bed.map_or(whole, |bed| bed.fraction);
     let crowd = interpolated(
         &Table::parse("golden/sphere_arrays/literature.csv", ARRAYS)?
             .with(&[("lattice", "FCC")])?,
@@ -168,7 +251,14 @@ fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), 
         let width = narrowest / largest;
         (shaft, format!("a square shaft {width:.1} diameters wide, like the walls"))
     } else {
-        (crowd, format!("a regular array of solid fraction {fraction:.3}, like the grains"))
+        let like = match bed {
+            Some(Bed { reaches: [x, y, z], .. }) => format!(
+                "the bed at cells {:.0} to {:.0}, {:.0} to {:.0}, {:.0} to {:.0} (the whole box has {whole:.3})",
+                x[0], x[1], y[0], y[1], z[0], z[1]
+            ),
+            None => "the grains".to_owned(),
+        };
+        (crowd, format!("a regular array of solid fraction {fraction:.3}, like {like}"))
     })
 }
 

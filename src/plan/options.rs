@@ -3,24 +3,18 @@
 use psmrt_reference::lattice::viscosity;
 
 use super::facts::{Facts, Limit};
-use crate::stability::Model;
+use super::predict::{Knobs, Outside, WALL_CELLS, is_heavy_enough, model_of, predict};
 use crate::tradeoff::knobs::CollisionKnob;
 use crate::tradeoff::model::Models;
 
 /// Relaxation times that are tried.
-const TAUS: [f64; 10] = [0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0];
+const TAUS: [f64; 13] = [0.51, 0.52, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0];
 
 /// Above so many cells per step errors of compressibility set in: the square of the Mach number is 3 %.
 pub const FASTEST: f64 = 0.1;
 
 /// Cells times velocity over viscosity may be so many, as `psmrt check` warns.
 const GRID_REYNOLDS: f64 = 10.0;
-
-/// Between plates the evidence reaches from 6 to 32 cells; finer grids follow the closed form.
-const PLATE_CELLS: [f64; 2] = [6.0, 256.0];
-
-/// What single precision adds between plates (golden/tradeoff/sweep.csv, magic rates, the largest).
-const PLATE_ROUNDING: f64 = 1e-4;
 
 /// What an engine costs.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,13 +58,15 @@ pub struct Way {
 pub fn ways(facts: &Facts, models: &Models, speeds: &[Speed]) -> Vec<Way> {
     let refinements = refinements(facts);
     let mut ways = Vec::new();
-    for tau in TAUS {
+    for tau in TAUS.into_iter().filter(|&tau| is_heavy_enough(facts, tau)) {
         for collision in CollisionKnob::ALL {
             let fastest = fastest(facts, tau, collision);
             for &refinement in &refinements {
+                if !is_slow_enough(facts, refinement.1, tau, fastest) {
+                    continue;
+                }
                 for speed in speeds {
-                    let knobs = (tau, collision, fastest);
-                    ways.extend(way(facts, models, refinement, knobs, speed));
+                    ways.extend(way(facts, models, refinement, (tau, collision), speed));
                 }
             }
         }
@@ -78,27 +74,67 @@ pub fn ways(facts: &Facts, models: &Models, speeds: &[Speed]) -> Vec<Way> {
     ways
 }
 
+/// Whether no map of stability and no error of compressibility forbids a flow as fast as that of a scene.
+fn is_slow_enough(facts: &Facts, si_dx: f64, tau: f64, fastest: f64) -> bool {
+    let nu = viscosity(tau);
+    // One cell per step, m/s.
+    let si_unit = facts.si_viscosity / (nu * si_dx);
+    let mapped = facts.mapped.map_or(0.0, |(_, si_velocity)| si_velocity / si_unit);
+    let velocity = facts.si_velocity.map(|si_velocity| si_velocity / si_unit);
+    mapped <= fastest && velocity.is_none_or(|u| u <= FASTEST && u / nu <= GRID_REYNOLDS)
+}
+
+/// Why there is no way to compute a scene at all.
+pub fn why_none(facts: &Facts, models: &Models) -> String {
+    if let Some((ratio, _)) = facts.lightest
+        && !TAUS.into_iter().any(|tau| is_heavy_enough(facts, tau))
+    {
+        return format!(
+            "a free grain has {ratio:.2} times the density of the fluid, and no grain that light stayed alive \
+             and right at any relaxation time (golden/stability/movers.csv; `psmrt check` says what was): make \
+             it heavier, or hold it fixed"
+        );
+    }
+    let grids = refinements(facts);
+    let resolutions: Vec<f64> =
+        grids.iter().map(|(_, si_dx)| facts.limit.cells() * facts.si_dx / si_dx).collect();
+    let heavy = Facts { lightest: None, ..facts.clone() };
+    let is_known = |&resolution: &f64| {
+        CollisionKnob::ALL.into_iter().any(|collision| {
+            let knobs =
+                Knobs { resolution, tau: 0.8, collision, single: false, velocity: Some(0.0) };
+            predict(&heavy, models, &knobs).is_ok()
+        })
+    };
+    if !resolutions.iter().any(is_known) {
+        let [nx, ny, nz] = facts.cells;
+        return format!(
+            "no grid that fills the box of {nx} x {ny} x {nz} cells has as many cells per diameter, or between \
+             walls, as the evidence (4 to 23, and 6 and more): choose a box whose sides share a larger divisor"
+        );
+    }
+    format!(
+        "at every grid and relaxation time of the evidence the flow is faster than {FASTEST} cells per time step, \
+         faster than golden/stability allows, or has structures smaller than a cell: choose a slower flow, or \
+         a smaller box"
+    )
+}
+
 /// How fast the flow that the maps of stability speak of may be, cells per step: what they found to survive
 /// and not to be wrong, and no more than errors of compressibility allow. Nothing where nothing was measured.
 fn fastest(facts: &Facts, tau: f64, collision: CollisionKnob) -> f64 {
     let Some((measured, _)) = facts.mapped else { return FASTEST };
-    let model = match collision {
-        CollisionKnob::Srt => Model::Srt,
-        CollisionKnob::Dhumieres => Model::DHumieres,
-        CollisionKnob::Magic => Model::Magic,
-    };
-    measured.limit_of(model, tau).map_or(0.0, |limit| limit.most().min(FASTEST))
+    measured.limit_of(model_of(collision), tau).map_or(0.0, |limit| limit.most().min(FASTEST))
 }
 
-/// The scene as it is, predicted; `None` if it lies outside the evidence.
+/// The scene as it is, predicted; if it lies outside the evidence, why.
 pub fn as_it_is(
     facts: &Facts,
     models: &Models,
     collision: CollisionKnob,
     speed: &Speed,
-) -> Option<Way> {
-    let knobs = (facts.tau, collision, fastest(facts, facts.tau, collision));
-    way(facts, models, (facts.cells, facts.si_dx), knobs, speed)
+) -> Result<Way, Outside> {
+    way(facts, models, (facts.cells, facts.si_dx), (facts.tau, collision), speed)
 }
 
 /// Cells along the axes and edge of a cell, for every grid that fills the box.
@@ -107,7 +143,7 @@ fn refinements(facts: &Facts) -> Vec<([usize; 3], f64)> {
     let common = full.iter().copied().fold(0, gcd).max(1);
     let most = match facts.limit {
         Limit::Grains { cells, .. } => 40.0 / cells,
-        Limit::Plates { cells } => PLATE_CELLS[1] / cells,
+        Limit::Plates { cells } | Limit::Duct { cells, .. } => WALL_CELLS[1] / cells,
     };
     (1..)
         .map(|parts: usize| (parts, parts as f64 / common as f64))
@@ -128,51 +164,20 @@ fn way(
     facts: &Facts,
     models: &Models,
     (cells, si_dx): ([usize; 3], f64),
-    (tau, collision, fastest): (f64, CollisionKnob, f64),
+    (tau, collision): (f64, CollisionKnob),
     speed: &Speed,
-) -> Option<Way> {
-    let nu = viscosity(tau);
-    let si_dt = nu * si_dx * si_dx / facts.si_viscosity;
+) -> Result<Way, Outside> {
+    let si_dt = viscosity(tau) * si_dx * si_dx / facts.si_viscosity;
     let velocity = facts.si_velocity.map(|si_velocity| si_velocity * si_dt / si_dx);
-    let mapped = facts.mapped.map_or(0.0, |(_, si_velocity)| si_velocity * si_dt / si_dx);
-    if mapped > fastest || velocity.is_some_and(|u| u > FASTEST || u / nu > GRID_REYNOLDS) {
-        return None;
-    }
-    let finer = facts.si_dx / si_dx;
-    let (resolution, error, band) = match facts.limit {
-        Limit::Grains { cells, drag, .. } => {
-            let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
-            let d = cells * finer;
-            let found = models.with_grains((collision, facts.solid), d, tau, drag)?;
-            if !within(found.ranges[0], d) || !within(found.ranges[1], tau) {
-                return None;
-            }
-            let [low, high] = found.band;
-            // An error that may have either sign may be nothing.
-            let least = if low * high < 0.0 { 0.0 } else { low.abs().min(high.abs()) };
-            (d, found.error.abs(), [least, low.abs().max(high.abs())])
-        }
-        Limit::Plates { cells } => {
-            let h = cells * finer;
-            if !(PLATE_CELLS[0]..=PLATE_CELLS[1]).contains(&h) {
-                return None;
-            }
-            let (error, band) = match (collision, models.of_walls(collision)) {
-                // The walls are right: only rounding is left.
-                (CollisionKnob::Magic, _) => (1e-7, 1.0),
-                (_, model) => {
-                    let model = model?;
-                    (model.error(h, tau, velocity.unwrap_or(0.0)), model.band())
-                }
-            };
-            let rounding = if speed.engine == "wgpu" { PLATE_ROUNDING } else { 0.0 };
-            (h, error, [error / band, error * band + rounding])
-        }
-    };
+    let resolution = facts.limit.cells() * facts.si_dx / si_dx;
+    let single = speed.engine == "wgpu";
+    let predicted =
+        predict(facts, models, &Knobs { resolution, tau, collision, single, velocity })?;
+    let (error, band) = predicted.size();
     let steps = (facts.si_time / si_dt).ceil();
     let cost = if collision == CollisionKnob::Srt { speed.srt } else { speed.mrt };
     let count = cells.iter().map(|&n| n as f64).product::<f64>();
-    Some(Way {
+    Ok(Way {
         cells,
         si_dx,
         resolution,

@@ -6,23 +6,27 @@ use serde::Deserialize;
 use super::format::Triple;
 
 /// How free grains touch each other, grains that are held, and the faces of the box. Give the normal
-/// spring by `stiffness` or by `duration`, the dashpot by `damping` or by `restitution`.
+/// spring by `stiffness` or by `duration`, the dashpot by `damping` or by `restitution`. A free grain that
+/// lies deeper than half its radius in another or in a face, or is thrown by a contact, stops the run.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactSection {
-    /// Stiffness of the normal spring, N/m.
+    /// Stiffness of the normal spring, N/m. Where neither it nor `duration` is given, contacts last 10 time
+    /// steps, or less if weight asks for it: a bed of all free grains at rest overlaps by 0.3 % of a diameter
+    /// at its bottom (the strongest chains of force by about 1 %), the heaviest grain at rest on the smallest
+    /// by 1 %, and when it falls on it by 5 %, at most.
     pub stiffness: Option<f64>,
     /// With `stiffness`: damping of the normal dashpot, N s/m.
     pub damping: Option<f64>,
-    /// Instead of `stiffness`: how long two of the lightest free grains touch in a central impact, s;
-    /// 10 time steps where neither is given.
+    /// Instead of `stiffness`: how long two of the lightest free grains touch in a central impact, s; up to a
+    /// million time steps. Contacts down to 0.03 time steps are right (golden/stability/contact.csv).
     pub duration: Option<f64>,
     /// Instead of `damping`: speed of parting over speed of meeting of such an impact in vacuum, 0.01
     /// to 1; 0.5 where neither is given.
     pub restitution: Option<f64>,
     /// Coulomb's coefficient of friction, 0 for smooth grains; 0.5 where absent.
     pub friction: Option<f64>,
-    /// Tangential over normal stiffness, and damping alike, above 0; 2/7 where absent: then a sphere
+    /// Tangential over normal stiffness, and damping alike, 0.001 to 10; 2/7 where absent: then a sphere
     /// swings tangentially in the time in which it swings normally.
     pub tangential_ratio: Option<f64>,
     /// Coefficient of rolling resistance: the tangent of the slope down which a grain just rolls;
@@ -57,6 +61,14 @@ pub struct GravitySection {
     /// diameter and tau = 1, tests/oracle/coupling.rs).
     #[serde(default)]
     pub form: GravityForm,
+    /// `true` where the domain is periodic along gravity and nothing else holds up what is in it: a uniform
+    /// pressure gradient, which acts on fluid and grains alike, carries the net weight (weight less buoyancy) of
+    /// all grains, as in a tall vessel. The total momentum then stays as it starts and grains settle through the
+    /// fluid; without it, fluid and grains fall together faster and faster. `false` where absent. Needs the
+    /// form `reduced`, free grains only, and faces that are periodic or `free_slip`. Settling velocities of
+    /// arrays are quoted against the mean flux: subtract the superficial velocity of a `box` record.
+    #[serde(default)]
+    pub balance: bool,
 }
 
 /// How gravity acts.
@@ -71,7 +83,9 @@ pub enum GravityForm {
 }
 
 /// How fluid and free grains act on each other. With either `internal_fluid` a grain of 1 to 10 times the fluid's
-/// density survives and keeps momentum, tau 0.501 to 2 (golden/stability/movers.csv); `lagged` is the default
+/// density survives and keeps momentum, tau 0.501 to 2; lighter ones do so down to 0.7 times with `lagged` (tau to 1;
+/// 0.8 times at 2), and with `kept` down to 0.5 times at tau 0.51, 0.6 at 0.55, 0.7 at 0.6 and 0.8, 0.8 at 1
+/// (golden/stability/movers.csv), below which they are thrown about until the run breaks; `lagged` is the default
 /// because a released sphere then starts as the exact solution says, within 2.5 % of its terminal velocity, while
 /// `kept` is too slow by more than 1.5 times that (tests/oracle/coupling.rs). Averaged loads with `lagged` let the spin
 /// of a neutrally buoyant grain swing.

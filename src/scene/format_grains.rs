@@ -42,7 +42,9 @@ pub struct GrainsSection {
     /// With `bed`: friction while it settles; 0.5 where absent, 0 packs dense.
     pub packing_friction: Option<f64>,
     /// `fixed` (the default), `prescribed` (moves as `velocity` and `spin` say) or `free` (moves as
-    /// fluid, neighbours and gravity push it).
+    /// fluid, neighbours and gravity push it). A prescribed sphere comes in again at periodic faces and may
+    /// leave through `pressure` and `free_outflow`; in any other face, or in a sphere that is not free, it
+    /// stops the run once it is more than 1 % of a diameter deep.
     #[serde(default)]
     pub motion: Motion,
     /// With `free`: density of the grains, kg/m3; not where a `csv` file has a column for it.

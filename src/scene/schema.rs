@@ -87,7 +87,13 @@ const RECORDS_HEAD: &str = "
 
 All tables begin with `time (s),step`. The superficial velocity is the mean mass flux, grains
 included, over the density of the fluid. Loads are those of the fluid on the grain in the last step; of a
-grain whose centre lies on a mirror plane, on the half that is computed. Places of moving grains go on
+grain whose centre lies on a mirror plane, on the half that is computed. A load is what the fluid in motion and
+its pressure do to the grain. Under a body force G (per volume, [body_force] or from [gravity]) it leaves out the
+buoyancy in the pressure gradient that the force stands for: the fluid carries only `1 - B` of it in cells of
+which grains take `B`, and `displaced_force` is the rest, `G ΣB` over the cells of the grain, where it is now. Force
+and displaced force of all grains add up to the driving force of the whole domain, G V, less what the momentum of
+the fluid gains and what walls take: to the last digit, when a periodic box is steady. (Without a body force it is
+0.) Places of moving grains go on
 counting where they cross a periodic face. Pressure is that above the fluid at its reference density.
 `grain_means` are means and sums over the free grains; contacts are those between grains and with faces,
 and the overlap is given over the mean diameter of the two.

@@ -1,7 +1,10 @@
 //! What the maps say in a line each: how fast a flow may be. The warnings of `psmrt check` and the report
 //! take it from here.
 
+use std::sync::OnceLock;
+
 use psmrt_reference::collision::Collision;
+use psmrt_reference::coupling::InternalFluid;
 use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::rates::Rates;
 
@@ -11,6 +14,7 @@ use crate::cases::{CaseError, Table};
 /// The maps that the warnings rest on, as they are committed.
 const SHEAR_LAYER: &str = include_str!("../../golden/stability/shear_layer.csv");
 const BED: &str = include_str!("../../golden/stability/bed_force.csv");
+const MOVERS: &str = include_str!("../../golden/stability/movers.csv");
 
 /// Columns that a line of a map has alike.
 const LINE: [&str; 5] = ["engine", "collision", "weight", "variant", "tau"];
@@ -116,12 +120,16 @@ impl Measured {
 
     /// The same of a model.
     pub fn limit_of(self, model: Model, tau: f64) -> Option<Limit> {
-        let (text, weight) = match self {
-            Measured::Fluid => (SHEAR_LAYER, "none"),
-            Measured::Bed(Weighting::NobleTorczynski) => (BED, "NT"),
-            Measured::Bed(Weighting::SolidFraction) => (BED, "eps"),
+        // Plans ask for them again and again.
+        static FLUID: OnceLock<Vec<Frontier>> = OnceLock::new();
+        static BEDS: OnceLock<Vec<Frontier>> = OnceLock::new();
+        let (known, text, weight) = match self {
+            Measured::Fluid => (&FLUID, SHEAR_LAYER, "none"),
+            Measured::Bed(Weighting::NobleTorczynski) => (&BEDS, BED, "NT"),
+            Measured::Bed(Weighting::SolidFraction) => (&BEDS, BED, "eps"),
         };
-        let all = frontiers(&Table::parse("golden/stability", text).ok()?).ok()?;
+        let read = || Table::parse("golden/stability", text).and_then(|map| frontiers(&map));
+        let all = known.get_or_init(|| read().unwrap_or_default());
         let mut own: Vec<&Frontier> = all
             .iter()
             .filter(|one| one.line[0] == "reference" && one.line[1] == model.word())
@@ -135,6 +143,65 @@ impl Measured {
         let right = around.iter().map(|one| one.right.unwrap_or(0.0)).fold(f64::INFINITY, f64::min);
         lives.is_finite().then_some(Limit { lives, right: Some(right).filter(|&u| u > 0.0) })
     }
+}
+
+/// How light a free grain may be.
+#[derive(Clone, Debug, PartialEq)]
+struct Lightest {
+    variant: String,
+    tau: f64,
+    /// Smallest density over that of the fluid down to which all were right; `None` if the heaviest was not.
+    ratio: Option<f64>,
+}
+
+/// What the map of free grains says, by relaxation time. Plans ask for it thousands of times.
+fn movers() -> &'static [Lightest] {
+    static ALL: OnceLock<Vec<Lightest>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let table = Table::parse("golden/stability/movers.csv", MOVERS);
+        let own =
+            table.and_then(|table| table.with(&[("engine", "reference")])).unwrap_or_default();
+        let [variant, tau, value, outcome] = [3, 4, 5, 6];
+        let real = |row: &[String], column: usize| row[column].parse().unwrap_or(f64::NAN);
+        let mut all: Vec<Lightest> = Vec::new();
+        for row in &own.rows {
+            let is_known =
+                |one: &Lightest| one.variant == row[variant] && one.tau == real(row, tau);
+            if all.iter().any(is_known) {
+                continue;
+            }
+            let line = own.rows.iter().filter(|o| o[variant] == row[variant] && o[tau] == row[tau]);
+            let mut runs: Vec<(f64, &str)> =
+                line.map(|other| (real(other, value), other[outcome].as_str())).collect();
+            runs.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let right = runs.iter().take_while(|run| run.1 == Outcome::Right.word());
+            let (variant, tau) = (row[variant].clone(), real(row, tau));
+            all.push(Lightest { variant, tau, ratio: right.last().map(|run| run.0) });
+        }
+        all.sort_by(|a, b| a.tau.total_cmp(&b.tau));
+        all
+    })
+}
+
+/// The smallest density of a free grain, over that of the fluid, down to which all were right at the measured
+/// relaxation times on either side. `None` beyond the map.
+pub fn lightest(inside: InternalFluid, tau: f64) -> Option<f64> {
+    let variant = match inside {
+        InternalFluid::Lagged => "lagged",
+        InternalFluid::Kept => "kept",
+    };
+    let own: Vec<&Lightest> = movers().iter().filter(|one| one.variant == variant).collect();
+    let above = own.iter().position(|one| one.tau >= tau - 1e-9)?;
+    let is_measured = (own[above].tau - tau).abs() < 1e-9;
+    let below = if is_measured { above } else { above.checked_sub(1)? };
+    Some(own[below].ratio?.max(own[above].ratio?))
+}
+
+/// The relaxation times of that map.
+pub fn taus_of_movers() -> Vec<f64> {
+    let mut taus: Vec<f64> = movers().iter().map(|one| one.tau).collect();
+    taus.dedup();
+    taus
 }
 
 /// The model of a collision, if it is one that was mapped.

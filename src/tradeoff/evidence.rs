@@ -11,8 +11,8 @@ const STUDY: &str = include_str!("../../golden/sphere_arrays/study.csv");
 /// The grids that count: coarser ones have more than one error, and finer ones cost too much to be many.
 const LEAST_CELLS: f64 = 3.9;
 
-/// Below this relaxation time what remains beside the leak counts most, and has either sign: at 0.55 the
-/// error of dense beds is half of what the models would say.
+/// Below this relaxation time what remains beside the leak counts most, and has either sign: there
+/// `model_low.rs` speaks.
 pub const LEAST_TAU: f64 = 0.6;
 
 /// The drag of random beds is known to 1 % only (`golden/tradeoff/random_drag.csv`): their smaller errors say
@@ -132,6 +132,13 @@ pub fn wall_point(row: &Row) -> Option<WallPoint> {
 
 /// The points with grains that models are fitted to.
 pub fn grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, CaseError> {
+    let mut points = all_grain_points(sweep)?;
+    points.retain(|point| point.tau >= LEAST_TAU);
+    Ok(points)
+}
+
+/// The points with grains at all relaxation times.
+pub(super) fn all_grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, CaseError> {
     let mut points: Vec<_> =
         sweep.iter().filter(|row| is_plain(row)).filter_map(grain_point).collect();
     points.retain(|point| {
@@ -150,7 +157,7 @@ pub fn grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, CaseError> {
             points.push(point);
         }
     }
-    points.retain(|point| point.tau >= LEAST_TAU && point.cells >= LEAST_CELLS);
+    points.retain(|point| point.cells >= LEAST_CELLS);
     Ok(points)
 }
 

@@ -8,7 +8,8 @@
 //! | `storage.rs` | the oracle with populations kept in fewer digits |
 //! | `record.rs` | rows in a file that grows and can be gone on with |
 //! | `front.rs` | runs that no other beats in cost and error |
-//! | `evidence.rs`, `fit.rs`, `model.rs`, `model_eps.rs` | error models, fitted to the committed rows |
+//! | `evidence.rs`, `evidence_low.rs`, `fit.rs` | the committed rows that models are fitted to, and how |
+//! | `model.rs`, `model_eps.rs`, `model_low.rs` | error models, fitted to them |
 //! | `cost.rs`, `effects.rs` | what a cell update costs; what one knob alone does |
 //! | `figures.rs`, `tables.rs` | what is shown |
 //! | `trial.rs`, `support.rs` | what was kept back, and what stands behind a prediction |
@@ -16,6 +17,7 @@
 pub mod cost;
 pub mod effects;
 pub mod evidence;
+pub mod evidence_low;
 pub mod figures;
 pub mod fit;
 pub mod front;
@@ -23,6 +25,7 @@ pub mod knobs;
 pub mod measure;
 pub mod model;
 pub mod model_eps;
+pub mod model_low;
 pub mod record;
 pub mod setting;
 pub mod storage;

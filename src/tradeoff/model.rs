@@ -23,13 +23,20 @@
 //! Bands hold 95 % of what is to be expected: 1.96 times the scatter of the logarithms, where the scatter is
 //! that of geometries that the model has not seen (each is left out in turn).
 
+use std::sync::OnceLock;
+
 use psmrt_reference::collision::Collision;
 use psmrt_reference::rates::Rates;
 
-use super::evidence::{GrainPoint, SolidKnob, WallPoint};
+use super::evidence::{
+    GrainPoint, LEAST_TAU, SolidKnob, WallPoint, committed_sweep, grain_points, wall_points,
+};
+use super::evidence_low::low_points;
 use super::fit::{Fit, least_squares, rms};
 use super::knobs::CollisionKnob;
 use super::model_eps::EpsModel;
+use super::model_low::LowModel;
+use crate::cases::CaseError;
 use crate::exact::magic_parameter;
 
 /// Below this the models say nothing: errors are then as large as what the place of a grain on the grid
@@ -151,7 +158,7 @@ pub fn slip_error(collision: CollisionKnob, tau: f64, h: f64) -> f64 {
 }
 
 /// `L` of a collision.
-fn parameter(collision: CollisionKnob, tau: f64) -> f64 {
+pub fn parameter(collision: CollisionKnob, tau: f64) -> f64 {
     match collision {
         CollisionKnob::Srt => magic_parameter(&Collision::Srt { tau }),
         CollisionKnob::Dhumieres => Rates::dhumieres(tau)
@@ -210,6 +217,8 @@ pub struct Models {
     pub grains: Vec<GrainModel>,
     /// With grains and the weight `B = ε`.
     pub eps: Option<EpsModel>,
+    /// With grains, d'Humières' rates and relaxation times below those of `grains`.
+    pub low: Option<LowModel>,
     /// Between plates; none for the magic rates, which are exact there.
     pub walls: Vec<WallModel>,
 }
@@ -227,8 +236,23 @@ impl Models {
                 .filter_map(|(knob, solid)| GrainModel::fit(knob, solid, grains))
                 .collect(),
             eps: EpsModel::fit(grains),
+            low: None,
             walls: all.iter().filter_map(|&knob| WallModel::fit(knob, walls)).collect(),
         }
+    }
+
+    /// Fitted to all that is committed, once.
+    pub fn committed() -> Result<&'static Self, CaseError> {
+        static MODELS: OnceLock<Models> = OnceLock::new();
+        if let Some(models) = MODELS.get() {
+            return Ok(models);
+        }
+        let sweep = committed_sweep()?;
+        let mut models = Models::fit(&grain_points(&sweep)?, &wall_points(&sweep));
+        let low = low_points(&sweep)?;
+        let above = models.of_grains(CollisionKnob::Dhumieres, SolidKnob::Usual);
+        models.low = above.and_then(|above| LowModel::fit(above, &low));
+        Ok(MODELS.get_or_init(|| models))
     }
 
     /// The model with grains of a collision of the fluid and of solid cells.
@@ -249,9 +273,17 @@ impl Models {
             return Some(model.prediction(d, tau, drag));
         }
         let model = self.of_grains(collision, solid)?;
+        let low = self
+            .low
+            .as_ref()
+            .filter(|_| collision == CollisionKnob::Dhumieres && solid == SolidKnob::Usual);
+        if let Some(low) = low.filter(|_| tau < LEAST_TAU) {
+            return Some(low.prediction(model, d, tau, drag));
+        }
         let error = model.error(d, tau, drag);
         let band = [error / model.band(), error * model.band()];
-        Some(Prediction { error, band, ranges: [model.ranges[0], model.ranges[1]] })
+        let lowest = low.map_or(model.ranges[1][0], |low| low.ranges[1][0]);
+        Some(Prediction { error, band, ranges: [model.ranges[0], [lowest, model.ranges[1][1]]] })
     }
 
     /// The model between plates of a collision.

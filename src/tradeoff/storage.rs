@@ -139,6 +139,10 @@ impl Engine for RoundedEngine {
         self.solver.loads().to_vec()
     }
 
+    fn displaced(&self) -> Vec<f64> {
+        self.solver.displaced()
+    }
+
     fn save(&self, _: &mut dyn Write) -> io::Result<()> {
         Err(io::Error::other("runs of the trade-off study cannot be saved"))
     }

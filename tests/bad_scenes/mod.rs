@@ -125,7 +125,7 @@ pub const BAD: &[Bad] = &[
     Bad("every_steps = 1000", "every_minutes = 0.0", "checkpoint.every_minutes", "above 0"),
     Bad("formats = [\"vti\"]", "formats = []", "records[2].formats", "empty"),
     Bad("name = \"line\"", "name = \"a/b\"", "records[1].name", "letters"),
-    Bad("name = \"line\"", "name = \"box\"", "records[1].name", "another record"),
+    Bad("name = \"line\"", "name = \"box\"", "records[1].name", "has this name already"),
     Bad("point = [0.0, 2.5e-4, 2.5e-4]", "point = [0.0, 9e-4, 2.5e-4]", "records[1].point", "outside the box"),
     // Beyond all proportion.
     Bad("kinematic_viscosity = 1e-6", "kinematic_viscosity = 1e300", "fluid.kinematic_viscosity", "between 1e-15 and 1e15 m2/s"),

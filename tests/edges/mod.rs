@@ -71,8 +71,13 @@ pub fn assert_all_finite(folder: &Path) {
             Some("csv") => {
                 for line in String::from_utf8(bytes).unwrap().lines().skip(1) {
                     for cell in line.split(',') {
-                        let value: f64 = cell.parse().unwrap_or_else(|_| panic!("{name}: {line}"));
-                        assert!(value.is_finite(), "{name}: {line}");
+                        let value: f64 = cell
+                            .parse()
+                            .unwrap_or_else(|_| panic!("{name} has {cell:?} in the line {line}"));
+                        assert!(
+                            value.is_finite(),
+                            "{name} has a value that is not finite in the line {line}"
+                        );
                     }
                 }
             }
@@ -80,7 +85,10 @@ pub fn assert_all_finite(folder: &Path) {
                 let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
                 for value in bytes[start..].chunks_exact(8) {
                     let value = f64::from_le_bytes(value.try_into().unwrap());
-                    assert!(value.is_finite(), "{name} holds {value}");
+                    assert!(
+                        value.is_finite(),
+                        "{name} holds the value {value}, which is not finite",
+                    );
                 }
             }
             Some("vti" | "vtp") => vtk::assert_finite(&bytes, &name.to_string()),
@@ -167,7 +175,11 @@ pub fn one_column(engine: &str, tolerance: f64) {
     let wide = ends(engine, "nine_columns", &scene([3, 3, 8], more));
     for column in ["superficial_velocity_x", "superficial_velocity_y", "max_speed"] {
         let (narrow, wide) = (narrow(column), wide(column));
-        assert!(wide > 1e-5 && (narrow / wide - 1.0).abs() < tolerance, "{narrow}, {wide} m/s");
+        assert!(
+            wide > 1e-5 && (narrow / wide - 1.0).abs() < tolerance,
+            "velocity in a box of one column {narrow}, in a wide one {wide} m/s: they ought to \
+             be equal",
+        );
     }
 }
 
@@ -191,7 +203,11 @@ pub fn at_rest(engine: &str) {
                 tolerance = 1e-3\n";
     let last = ends(engine, "at_rest", &scene([8, 8, 8], more));
     // The weights 1/18 and 1/36 add up to a residue of some epsilons times the speed of sound, 1 m/s here.
-    assert!(last("max_speed") < 1e-14, "{} m/s", last("max_speed"));
+    assert!(
+        last("max_speed") < 1e-14,
+        "fluid at rest has come to move at {} m/s",
+        last("max_speed"),
+    );
     assert_eq!(last("step"), STEPS as f64);
 }
 
@@ -283,7 +299,10 @@ pub fn any_units(engine: EngineName, lab: &Lab, budget: &mut Budget) {
         );
         let scene = Scene::from_bytes("units", text.into_bytes(), Path::new(""), &[])
             .unwrap_or_else(|error| panic!("dx = {si_dx}: {error}"));
-        assert!((scene.setup.collision.tau() - 0.8).abs() < 1e-12, "dx = {si_dx}");
+        assert!(
+            (scene.setup.collision.tau() - 0.8).abs() < 1e-12,
+            "cells of dx = {si_dx} m: the relaxation time is not the 0.8 of the scene",
+        );
         let line = Line { engine, model: Model::DHumieres, weighting: None, variant: "", tau: 0.8 };
         let mut run =
             lab.engine(&line, &scene.setup, scene.free.as_ref(), |_| (1.0, Vec3::zeros())).unwrap();

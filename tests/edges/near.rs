@@ -55,9 +55,18 @@ pub fn assert_near(
     budget.spend(found.steps * cells);
     println!("{} {line:?} {value}: {found:?}", flow.name);
     if lives {
-        assert!(found.outcome.lived(), "{} {line:?} at {value}: {found:?}", flow.name);
+        assert!(
+            found.outcome.lived(),
+            "{} on this side of the frontier ({line:?} at {value}) ought to survive: {found:?}",
+            flow.name,
+        );
     } else {
-        assert_eq!(found.outcome, Outcome::Stopped, "{} {line:?} at {value}", flow.name);
+        assert_eq!(
+            found.outcome,
+            Outcome::Stopped,
+            "{} beyond the frontier ({line:?} at {value}) ought to be stopped",
+            flow.name,
+        );
         assert!(found.how.is_some());
     }
 }
@@ -75,6 +84,11 @@ pub fn in_one_cell_and_too_hard(engine: EngineName, lab: &Lab, budget: &mut Budg
         let flow = FLOWS.iter().find(|known| known.name == flow).unwrap();
         let found = (flow.run)(lab, &line, value).or_else(Found::of).unwrap();
         budget.spend(found.steps * cells);
-        assert_eq!(found.outcome, expected, "{} {line:?} at {value}: {found:?}", flow.name);
+        assert_eq!(
+            found.outcome, expected,
+            "{} near the frontier ({line:?} at {value}) ends otherwise than the map says: \
+             {found:?}",
+            flow.name,
+        );
     }
 }

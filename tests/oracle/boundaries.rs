@@ -41,7 +41,10 @@ fn inlet_fills_a_box_with_free_slip_sides_with_a_uniform_stream() {
         Budget::oracle(2_200_000).run(&mut solver, 30_000);
         // The start's sound wave has died away; what is left is round-off.
         for u in solver.velocity_field() {
-            assert!((u - along_x(0.05)).norm() < 1e-12, "{outlet:?}: {u}");
+            assert!(
+                (u - along_x(0.05)).norm() < 1e-12,
+                "velocity of a plug between an inlet of 0.05 and {outlet:?}: {u} instead of (0.05, 0, 0)"
+            );
         }
     }
 }
@@ -70,7 +73,12 @@ fn channel_between_inlet_and_pressure_outlet_develops_the_parabola() {
     };
     let exact_mean = (0..H).map(exact).sum::<f64>() / H as f64;
     for (y, u_y) in profile.iter().enumerate() {
-        assert!((u_y / mean - exact(y) / exact_mean).abs() < 5e-4, "y = {y}: {}", u_y / mean);
+        assert!(
+            (u_y / mean - exact(y) / exact_mean).abs() < 5e-4,
+            "velocity over its mean at y = {y}: {}, not that of the parabola: inlet or outlet \
+             still bends the profile",
+            u_y / mean
+        );
     }
 }
 
@@ -105,7 +113,11 @@ fn two_pressures_drive_poiseuille_flow_but_for_an_end_effect_of_a_twentieth_of_t
         let (in_the_middle, from_end_to_end) = driving_gradient(h, length, &mut budget);
         // The ends are forgotten like exp(-4.2 x/H): 2e-4 at two widths, which is where the middle
         // of the shorter channel lies.
-        assert!((in_the_middle - 1.0).abs() < 4e-4, "h = {h}: {in_the_middle}");
+        assert!(
+            (in_the_middle - 1.0).abs() < 4e-4,
+            "{h} cells wide: the flux needs {in_the_middle} times the pressure gradient found \
+             in the middle, in Poiseuille flow 1"
+        );
         0.5 * (1.0 - 1.0 / from_end_to_end) * length as f64 / h as f64
     };
     let (coarse, middle, fine) = (shortening(6, 24), shortening(8, 32), shortening(16, 64));
@@ -114,7 +126,10 @@ fn two_pressures_drive_poiseuille_flow_but_for_an_end_effect_of_a_twentieth_of_t
     // Grids of 8 and 16 cells agree to 1 % (second order would leave (1/8)² of it), and so do lengths.
     assert!((middle / fine - 1.0).abs() < 0.016 && (long / middle - 1.0).abs() < 0.01);
     assert!((middle / fine - 1.0).abs() < (coarse / fine - 1.0).abs());
-    assert!((0.04..0.06).contains(&fine), "{fine}");
+    assert!(
+        (0.04..0.06).contains(&fine),
+        "the end effect of pressure faces on the fine grid is {fine} of the width, not about a twentieth"
+    );
 }
 
 #[test]
@@ -168,10 +183,16 @@ fn inlet_with_a_free_outflow_leaves_the_mean_density_free_and_its_drift_is_recor
     // The sound wave of the start, whose pressure is of the order u/c_s = 9 %, leaves through a
     // free outflow only in part: a few percent stay in the box.
     let free = drift(Face::FreeOutflow);
-    assert!(free > 0.01, "{free}");
+    assert!(
+        free > 0.01,
+        "under a free outflow the mean density has drifted by only {free}: has the outlet begun to hold it?"
+    );
     // A pressure outlet sets the density to its own, to the round-off of 20,000 steps.
     let held = drift(AMBIENT);
-    assert!(held.abs() < 1e-3 * free, "{held}");
+    assert!(
+        held.abs() < 1e-3 * free,
+        "a pressure outlet lets the mean density drift by {held}: nothing holds the level of the pressure"
+    );
 }
 
 #[test]
@@ -185,12 +206,19 @@ fn closed_box_under_a_body_force_comes_to_rest_in_hydrostatic_balance() {
     let (rho, u) = (solver.density_field(), solver.velocity_field());
     // At rest to round-off of the populations (1e-16 each, gathered over 20,000 steps).
     let largest = u.iter().map(|u| u.norm()).fold(0.0, f64::max);
-    assert!(largest < 1e-13, "{largest:e}");
+    assert!(
+        largest < 1e-13,
+        "fluid at rest in a hydrostatic pressure flows at up to {largest:e} cells a step: the \
+         body force and the faces do not balance"
+    );
     // c_s² dρ/dz = -g between the nodes, exactly: the lattice's discrete balance. (G is a force per
     // volume, so it does not grow with the density.)
     for z in 1..16 {
         let gradient = CS2 * (rho[9 * z] - rho[9 * (z - 1)]);
-        assert!((gradient + g).abs() < 1e-13, "z = {z}: {gradient:e}");
+        assert!(
+            (gradient + g).abs() < 1e-13,
+            "pressure gradient at z = {z} plus the body force: {gradient:e} does not balance it"
+        );
     }
 }
 
@@ -233,7 +261,11 @@ fn quarter_of_a_box_between_mirror_planes_has_the_flow_of_the_whole_box() {
                         (whole[i + 8 * (y + 8 * z)], quarter[i + 8 * (y + 4 * z)]);
                     let off = common::random::largest_difference(&whole, &quarter);
                     // Round-off of 100 steps; the whole box sums over mirror images in another order.
-                    assert!(off < 1e-14, "{x:?} at {i} {y} {z}: {off:e}");
+                    assert!(
+                        off < 1e-14,
+                        "quarter between mirror planes against the whole box at {i} {y} {z} (x \
+                         faces {x:?}): populations differ by {off:e}"
+                    );
                 }
             }
         }
@@ -248,6 +280,12 @@ fn a_pressure_face_sends_a_stream_at_equilibrium_back_in_as_it_goes_out() {
     for a in 0..Q {
         let back = anti_bounce_back(&f, a, rho);
         // Why: ten terms of at most 0.5, each rounded.
-        assert!((back - f[a]).abs() < 1e-15, "direction {a}, c = {:?}: {back} {}", C[a], f[a]);
+        assert!(
+            (back - f[a]).abs() < 1e-15,
+            "anti-bounce-back of an equilibrium at its own density, direction {a}, c = {:?}: \
+             {back} instead of {}",
+            C[a],
+            f[a]
+        );
     }
 }

@@ -99,7 +99,10 @@ fn keeps_its_mass(mut solver: Solver) -> Result<(), TestCaseError> {
         solver.step().unwrap();
         let off = (mass(&solver) - before).abs();
         let bound = bound.max(round_off(gauge(solver.populations())));
-        prop_assert!(off < bound, "{off:e} > {bound:e}");
+        prop_assert!(
+            off < bound,
+            "the mass of the box has changed in a step by {off:e}, more than its round-off {bound:e}"
+        );
     }
     Ok(())
 }
@@ -156,7 +159,11 @@ proptest! {
             solver.step().unwrap();
             let on_solids: Vec3 = solver.loads().iter().map(|load| load.force).sum();
             let off = (total_momentum(&solver) - before + on_solids - open * g).norm();
-            prop_assert!(off < bound.max(round_off(gauge(solver.populations()))), "{off:e} > {bound:e}");
+            prop_assert!(
+                off < bound.max(round_off(gauge(solver.populations()))),
+                "the momentum of the fluid plus the impulse on the solids has changed in a \
+                 step by {off:e}, more than its round-off {bound:e}"
+            );
         }
     }
 }
@@ -174,6 +181,9 @@ fn every_inlet_cell_lets_in_exactly_rho_u_also_at_edges() {
     solver.step().unwrap();
     let gained = mass(&solver) - 60.0;
     // Round-off of a sum of 60 densities.
-    assert!((gained - 15.0 * u).abs() < 1e-13, "{gained}");
+    assert!(
+        (gained - 15.0 * u).abs() < 1e-13,
+        "mass gained through the inlet: {gained}, not the flux 15 u that its faces let in"
+    );
     assert!(solver.populations().iter().all(|f| density(f) > 0.0));
 }

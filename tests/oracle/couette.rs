@@ -67,7 +67,10 @@ impl Couette {
         // A wall that moves in its own plane lets nothing through: an epsilon of round-off a step
         // (SRT's has one sign in a steady state).
         let round_off = solver.steps() as f64 * f64::EPSILON;
-        assert!((mass / (h * self.rho) - 1.0).abs() < round_off, "mass {mass}");
+        assert!(
+            (mass / (h * self.rho) - 1.0).abs() < round_off,
+            "mass between the plates: {mass}, not that of the start: the moving wall makes or takes some"
+        );
         let error = |(i, u): (usize, Vec3)| {
             let y = if self.side == 1 { i as f64 + 0.5 } else { h - 0.5 - i as f64 };
             (u / self.speed - y / h * unit(self.along)).norm()
@@ -106,8 +109,16 @@ fn couette_flow_with_dhumieres_rates_is_exact_but_for_the_square_of_the_speed() 
         });
         println!("tau {tau}: error over the square of the speed {errors:.5?}");
         // The next power is u⁴: a hundredth of the error at 0.1.
-        assert!((errors[0] / errors[2] - 1.0).abs() < 0.01, "tau {tau}: {errors:?}");
-        assert!((errors[1] / errors[2] - 1.0).abs() < 0.01, "tau {tau}: {errors:?}");
+        assert!(
+            (errors[0] / errors[2] - 1.0).abs() < 0.01,
+            "tau {tau}: errors {errors:?} at three wall speeds over the square of the speed \
+             differ: they are not of second order in it"
+        );
+        assert!(
+            (errors[1] / errors[2] - 1.0).abs() < 0.01,
+            "tau {tau}: errors {errors:?} at three wall speeds over the square of the speed \
+             differ: they are not of second order in it"
+        );
     }
 }
 
@@ -118,11 +129,18 @@ fn wall_term_takes_the_density_of_the_cell_a_constant_one_would_slow_the_wall_do
     let f = equilibrium(rho, &u_w);
     for a in (0..Q).filter(|&a| C[a][1] == 1) {
         // Sums of three terms below 0.1.
-        assert!((bounce_back(&f, a, &u_w) - f[a]).abs() < 1e-16, "direction {a}");
+        assert!(
+            (bounce_back(&f, a, &u_w) - f[a]).abs() < 1e-16,
+            "direction {a}: a moving wall does not return an equilibrium at its own velocity \
+             and density unchanged"
+        );
         // With density 1 in its place the term is that of a wall at u_w/1.1: 9% too slow.
         let constant = f[OPPOSITE[a]] + 2.0 * W[a] * c(a).dot(&u_w) / CS2;
         let slow = bounce_back(&f, a, &(u_w / rho));
-        assert!((constant - slow).abs() < 1e-16, "direction {a}");
+        assert!(
+            (constant - slow).abs() < 1e-16,
+            "direction {a}: with density 1 in its place the wall term is not that of a slower wall"
+        );
     }
     // And such a wall drags the whole fluid at 1/1.1 of the speed.
     let mut budget = Budget::oracle(10_000);
@@ -143,7 +161,11 @@ fn plug_flow_between_free_slip_walls_stays_plug_flow() {
             budget.run(&mut solver, 200);
             for u in solver.velocity_field() {
                 // 200 steps, each with round-off of 1e-17 in the momentum.
-                assert!((u - plug).norm() < 1e-14, "along {along}, {collision:?}: {u:?}");
+                assert!(
+                    (u - plug).norm() < 1e-14,
+                    "plug flow along {along} between free-slip faces, {collision:?}: {u:?}: a \
+                     face or edge changes it"
+                );
             }
         }
     }
@@ -195,7 +217,11 @@ fn part_of_a_box_beside_mirror_planes_has_the_flow_of_the_whole() {
             let at = std::array::from_fn(|axis| at[axis] + if mirrored[axis] { 4 } else { 0 });
             // The same sums in another order: round-off of 30 steps, 1e-16 each.
             let difference = (u - u_whole[whole.domain().index(at)]).norm();
-            assert!(difference < 3e-15, "mirrored {mirrored:?}, {at:?}: {difference:e}");
+            assert!(
+                difference < 3e-15,
+                "part of a box beside mirror planes {mirrored:?}, at {at:?}: its velocity \
+                 differs from that in the whole by {difference:e}"
+            );
         }
         println!("mirrored {mirrored:?}: fastest {largest:.1e}");
         assert!(largest > 1e-4, "the flow still moves");

@@ -71,7 +71,11 @@ fn momentum_of_fluid_and_grains_closes_to_round_off_in_a_periodic_box() {
             );
             assert!(touched, "the grains must collide, or contacts are not tested");
             // Sums over 1,728 cells of populations that add up to 1,728, rounded at each of 120 steps.
-            assert!(off < 1e-11, "{off:e}");
+            assert!(
+                off < 1e-11,
+                "momentum of fluid and grains together has changed by {off:e}: what the fluid \
+                 gives the grains do not receive"
+            );
         }
     }
 }
@@ -96,7 +100,11 @@ fn neutrally_buoyant_grain_at_rest_stays_at_rest() {
     // Weight less buoyancy is zero: m_s and m_f are the same product. The loads round off by some
     // 1e-15 of 51, the mass, and what they do is kept as a change of velocity from step to step, so
     // that it is summed up twice: 500² 1e-15/51 = 5e-12 at most in velocity, 500 times that in place.
-    assert!(now.velocity.norm() < 5e-12, "{:e}", now.velocity.norm());
+    assert!(
+        now.velocity.norm() < 5e-12,
+        "a grain of the fluid's density under reduced gravity moves at {:e} cells a step: it has weight left",
+        now.velocity.norm()
+    );
     assert!((now.position - grain.position).norm() < 2.5e-9);
 }
 
@@ -125,7 +133,12 @@ fn grain_at_rest_feels_its_buoyant_weight_to_round_off_at_any_density() {
         let weight = (density - 1.0) * 4.0 / 3.0 * PI * 2.3_f64.powi(3) * g;
         // The still fluid presses alike on all sides, to round-off of sums over 100 cells of
         // populations below 0.4.
-        assert!((load.force - weight).norm() < 1e-14, "density {density}: {}", load.force);
+        assert!(
+            (load.force - weight).norm() < 1e-14,
+            "grain at rest in still fluid, density ratio {density}: it feels {} instead of its \
+             weight less buoyancy",
+            load.force
+        );
         assert!(load.torque.norm() < 1e-14);
     }
 }
@@ -231,14 +244,25 @@ fn released_sphere_starts_as_basset_boussinesq_and_oseen_say_if_the_internal_flu
         // In units of the terminal velocity. At 8 cells per diameter and tau = 0.6 the drag of a lone
         // sphere is about 3 % too small (golden/sphere_arrays/study.csv), and the images across the
         // mirror planes, 10 radii away, slow it by less in this time: together below 2.5 %.
-        assert!(lagged.abs() < 0.025, "ratio {ratio}: {lagged}");
+        assert!(
+            lagged.abs() < 0.025,
+            "density ratio {ratio}, lagged: off the equation of Basset, Boussinesq and Oseen \
+             by {lagged} of the terminal velocity"
+        );
         // With the fluid's inertia kept the sphere is too slow, and wrong by more.
-        assert!(kept < 0.0 && kept.abs() > 1.5 * lagged.abs(), "ratio {ratio}: {kept}, {lagged}");
+        assert!(
+            kept < 0.0 && kept.abs() > 1.5 * lagged.abs(),
+            "density ratio {ratio}: with the internal fluid kept the sphere is {kept} off, \
+             lagged {lagged}: kept ought to be too slow, and worse"
+        );
         // Taken off the mass at once it is as good where it lives, but near a ratio of 1 nothing is
         // left that has inertia: at 1.5 it blows up after 28 steps, at 1.01 after two.
         match taken_off {
             Ok(taken_off) => assert!(ratio > 2.0 && (taken_off - lagged).abs() < 2e-3),
-            Err(reason) => assert!(ratio < 2.0 && reason.contains("blew up"), "{reason}"),
+            Err(reason) => assert!(
+                ratio < 2.0 && reason.contains("blew up"),
+                "the run stopped, and not as light grains do: {reason}"
+            ),
         }
     }
 }
@@ -270,7 +294,10 @@ fn free_sphere_in_shear_turns_at_half_the_rate() {
     // What walls and images change is of the order of the solid fraction, 1.5 %, times the share of
     // the shear that they see: well below 1 %, which is also what PS lags behind (7.5 nu/a² of the
     // stress of a solid that does not turn with the fluid, here nearly none).
-    assert!((turned.y - 1.0).abs() < 0.01, "{turned}");
+    assert!(
+        (turned.y - 1.0).abs() < 0.01,
+        "angular velocity of a free sphere in shear, over half the shear rate: {turned}, not (0, 1, 0)"
+    );
     // By symmetry nothing else moves, to round-off of loads summed over 200 cells.
     assert!(turned.x.abs() + turned.z.abs() < 1e-9 && (grain.position - centre).norm() < 1e-9);
 }

@@ -59,6 +59,7 @@ fn going_on_from_a_saved_state_gives_the_bits_of_the_run_that_was_never_stopped(
             let springs = grains.1.pair_contacts.iter().filter(|c| c.memory.spring.norm() > 0.0);
             assert!(springs.count() >= 3 && !grains.1.plane_contacts.is_empty());
             let last = whole.last_steps().to_vec();
+            assert_eq!(last.len(), 8, "the last step of each grain");
             let mut resumed =
                 CoupledSolver::going_on_from(saved, grains, *whole.settings(), last).unwrap();
             run(&mut budget, &mut whole, 60);

@@ -50,7 +50,8 @@ fn fractions_of_all_cells_add_up_to_the_volume_of_the_sphere() {
             // direction, and the rounding of the sum itself, 14,137 for the largest sphere.
             assert!(
                 (sum - volume).abs() < 1e-10,
-                "radius {radius} at {position:?}: {sum} {volume}"
+                "radius {radius} at {position:?}: the fractions of all cells add up to {sum}, \
+                 the sphere has {volume}"
             );
         }
     }
@@ -163,7 +164,11 @@ fn cells_wholly_outside_or_inside_have_exactly_0_or_1() {
         ([0.5, -0.5, 0.5], 1.8, 1.0),
         ([20.0, -30.0, 10.0], 50.0, 1.0),
     ] {
-        assert_eq!(exact_fraction(&Vec3::from(centre), radius), fraction, "{centre:?} {radius}");
+        assert_eq!(
+            exact_fraction(&Vec3::from(centre), radius),
+            fraction,
+            "a cell wholly in or out of the sphere at {centre:?}, radius {radius}, has not exactly 1 or 0"
+        );
     }
 }
 
@@ -176,7 +181,12 @@ fn all_48_symmetries_of_the_cube_hold_to_the_last_bit() {
         let (centre, radius) = cut(&mut random);
         let fraction = exact_fraction(&centre, radius);
         for image in images(&centre) {
-            assert_eq!(exact_fraction(&image, radius), fraction, "{centre:?} {image:?} {radius}");
+            assert_eq!(
+                exact_fraction(&image, radius),
+                fraction,
+                "sphere at {centre:?} and its image {image:?} under a symmetry of the cube, \
+                 radius {radius}: the fractions differ in bits"
+            );
         }
     }
 }
@@ -207,7 +217,11 @@ fn rounding_does_not_carry_the_fraction_out_of_0_to_1() {
                 let lacks = corner * (radius + depth) - Vec3::repeat(0.5);
                 for centre in [reaches, lacks] {
                     let fraction = exact_fraction(&centre, radius);
-                    assert!((0.0..=1.0).contains(&fraction), "{centre:?} {radius}: {fraction:e}");
+                    assert!(
+                        (0.0..=1.0).contains(&fraction),
+                        "rounding carries the fraction of a sphere at {centre:?}, radius \
+                         {radius}, out of 0 to 1: {fraction:e}"
+                    );
                 }
             }
         }
@@ -235,7 +249,7 @@ proptest! {
     #[test]
     fn fraction_lies_between_0_and_1((centre, radius) in near_cut()) {
         let fraction = exact_fraction(&centre, radius);
-        prop_assert!((0.0..=1.0).contains(&fraction), "{fraction}");
+        prop_assert!((0.0..=1.0).contains(&fraction), "the fraction {fraction} is not from 0 to 1");
     }
 
     #[test]
@@ -245,7 +259,11 @@ proptest! {
         // Why: dV/da is the area of the surface in the cell. It is at least 0, and at most 6, since
         // no convex body in the cell has a larger surface than the cell.
         let (least, most) = (-2.0 * rounding(radius), 6.0 * growth + 2.0 * rounding(radius + 1.0));
-        prop_assert!((least..=most).contains(&change), "{change} for {growth}");
+        prop_assert!(
+            (least..=most).contains(&change),
+            "the fraction changes by {change} where the radius grows by {growth}: it falls, or \
+             grows by more than the surface in the cell"
+        );
     }
 
     #[test]
@@ -256,7 +274,10 @@ proptest! {
             moved[axis] += shift;
             let change = exact_fraction(&moved, radius) - exact_fraction(&centre, radius);
             // Why: dV/dx is the surface's shadow along x, at most the cell's: 1.
-            prop_assert!(change.abs() <= shift + 2.0 * rounding(radius), "{change} for {shift}");
+            prop_assert!(
+                change.abs() <= shift + 2.0 * rounding(radius),
+                "the fraction changes by {change} where the centre moves by {shift}: it jumps"
+            );
         }
     }
 }
@@ -361,7 +382,11 @@ fn coverage_of_spheres_that_have_moved_is_that_of_spheres_placed_there() {
         let placed = Coverage::new(&domain, &spheres, CoverageRule::Exact);
         // In the same order too, so that sums over the solids of a cell do not depend on the way here.
         for cell in 0..domain.cell_count() {
-            assert_eq!(moved.shares(cell), placed.shares(cell), "cell {cell}");
+            assert_eq!(
+                moved.shares(cell),
+                placed.shares(cell),
+                "cell {cell}: what moved spheres cover differs from what spheres placed there cover"
+            );
         }
     }
 }

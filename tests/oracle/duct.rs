@@ -90,12 +90,22 @@ fn series_of_the_duct_agrees_with_the_tables() {
         // The table is good to 1e-10 (its README); the series is cut where its terms are 1e-9 of
         // the first and alternate, at the wall itself as 1/k², so that 2e-10 is left.
         let error = exact(row[0], row[1], 1.0) - row[2];
-        assert!(error.abs() < 1e-9, "at {}, {}: {error:e}", row[0], row[1]);
+        assert!(
+            error.abs() < 1e-9,
+            "the series for the velocity in a square duct at {}, {}: off the table by {error:e}",
+            row[0],
+            row[1]
+        );
     }
     for row in numbers("duct/literature.csv") {
         // Twelve printed digits.
         let error = exact(0.0, 0.0, 1.0 / row[0]) / row[2] - 1.0;
-        assert!(error.abs() < 2e-12, "aspect {}: {error:e}", row[0]);
+        assert!(
+            error.abs() < 2e-12,
+            "the series for the velocity in the middle of a duct of aspect ratio {}: off the \
+             table by {error:e}",
+            row[0]
+        );
     }
 }
 
@@ -119,7 +129,7 @@ fn assert_second_order(
         println!("  {what}: order {all:.3}, of the finest two {finest:.3}");
         // The coarsest duct has 6 cells across: its fourth-order term, a tenth of the second-order
         // one, turns the slope by up to 0.15; between the finest two it is below a hundredth.
-        assert!((all - 2.0).abs() < 0.2, "{what}: order {all}");
+        assert!((all - 2.0).abs() < 0.2, "{what}: the error falls with order {all}, not 2");
         assert!((finest - 2.0).abs() < 0.06, "{what}: order between the finest two {finest}");
     }
     // What extrapolation leaves is of fourth order: a fraction of (1/12)^4 = 5e-5.

@@ -56,7 +56,10 @@ fn eq4_without_one_over_tau_has_the_viscosity_of_tau_1() {
     // Printed: -(I - B)(f - f_eq), whatever tau. That is SRT with tau = 1.
     let printed = measured_viscosity(CollisionOperator::Srt { tau: 1.0 });
     let used = measured_viscosity(CollisionOperator::new(&Collision::Srt { tau: TAU }));
-    assert!(is_right_viscosity(used), "{used}");
+    assert!(
+        is_right_viscosity(used),
+        "the form that is used has the viscosity {used}, not (tau - 1/2)/3"
+    );
     assert!(!is_right_viscosity(printed) && (printed / viscosity(1.0) - 1.0).abs() < 0.01);
 }
 

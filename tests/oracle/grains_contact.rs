@@ -74,11 +74,23 @@ fn the_law_s_formulas_are_those_of_the_table() {
         let law = ContactLaw::new(1.0, 2.0 * zeta).unwrap();
         // Half a unit of the table's eighth digit.
         let digits = |value: f64| 0.5e-7 * 10_f64.powf(value.log10().floor());
-        assert!((law.restitution(1.0) - e).abs() <= digits(e), "{row:?}");
-        assert!((law.duration(1.0) - duration).abs() <= digits(duration), "{row:?}");
-        assert!((law.restitution(1.0).sqrt() - row[5]).abs() <= digits(row[5]), "{row:?}");
+        assert!(
+            (law.restitution(1.0) - e).abs() <= digits(e),
+            "restitution of the law differs from the digits of the table: {row:?}"
+        );
+        assert!(
+            (law.duration(1.0) - duration).abs() <= digits(duration),
+            "duration of a contact differs from the digits of the table: {row:?}"
+        );
+        assert!(
+            (law.restitution(1.0).sqrt() - row[5]).abs() <= digits(row[5]),
+            "largest overlap differs from the digits of the table: {row:?}"
+        );
         // Inverse: a table entry of 8 digits fixes ζ to some 1e-7.
-        assert!((damping_ratio(e) - zeta).abs() < 1e-6, "{row:?}");
+        assert!(
+            (damping_ratio(e) - zeta).abs() < 1e-6,
+            "damping ratio for a restitution differs from the digits of the table: {row:?}"
+        );
     }
 }
 
@@ -89,10 +101,22 @@ fn impacts_last_rebound_and_overlap_as_the_table_says() {
     for row in table() {
         let law = ContactLaw::new(1.0, 2.0 * row[0]).unwrap();
         let found = impact(law, [2.0, 2.0], dt, 0.3);
-        assert!((found.restitution - row[3]).abs() < 2e-5, "{}, {row:?}", found.restitution);
+        assert!(
+            (found.restitution - row[3]).abs() < 2e-5,
+            "computed restitution {} differs from that of {row:?}",
+            found.restitution
+        );
         // Ends are seen to a sub-step each.
-        assert!((found.duration - row[4]).abs() < 2.0 * dt, "{}, {row:?}", found.duration);
-        assert!((found.max_overlap - row[5]).abs() < 2e-5, "{}, {row:?}", found.max_overlap);
+        assert!(
+            (found.duration - row[4]).abs() < 2.0 * dt,
+            "computed duration of contact {} differs from that of {row:?} by two sub-steps or more",
+            found.duration
+        );
+        assert!(
+            (found.max_overlap - row[5]).abs() < 2e-5,
+            "computed largest overlap {} differs from that of {row:?}",
+            found.max_overlap
+        );
         assert_eq!(found.strongest_pull, 0.0, "contacts never pull");
     }
 }
@@ -103,8 +127,14 @@ fn an_overdamped_impact_follows_the_continued_formula() {
         let law = ContactLaw::new(1.0, 2.0 * zeta).unwrap();
         let found = impact(law, [2.0, 2.0], law.duration(1.0) / 2000.0, 0.3);
         // Second order: 1/6400 of the error at 25 per contact, and ten times that for its growth.
-        assert!((found.restitution - law.restitution(1.0)).abs() < 1e-5, "zeta {zeta}");
-        assert!((found.max_overlap - law.restitution(1.0).sqrt()).abs() < 1e-5, "zeta {zeta}");
+        assert!(
+            (found.restitution - law.restitution(1.0)).abs() < 1e-5,
+            "zeta {zeta}: the restitution of a computed impact differs from the closed form"
+        );
+        assert!(
+            (found.max_overlap - law.restitution(1.0).sqrt()).abs() < 1e-5,
+            "zeta {zeta}: the largest overlap of a computed impact differs from the closed form"
+        );
     }
 }
 
@@ -114,11 +144,19 @@ fn the_textbook_conversion_from_restitution_would_miss_it() {
     let wanted: f64 = 0.5;
     let zeta = -wanted.ln() / (std::f64::consts::PI.powi(2) + wanted.ln().powi(2)).sqrt();
     let found = impact(ContactLaw::new(1.0, 2.0 * zeta).unwrap(), [2.0, 2.0], 0.01, 0.3);
-    assert!(found.restitution > wanted + 0.04, "{}", found.restitution);
+    assert!(
+        found.restitution > wanted + 0.04,
+        "the textbook's conversion ought to miss the wanted restitution of 0.5 by 0.04 or more, and gives {}",
+        found.restitution
+    );
     // The conversion that is used does not.
     let law = ContactLaw::from_duration_and_restitution(3.0, wanted, 1.0).unwrap();
     let found = impact(law, [2.0, 2.0], 0.01, 0.3);
-    assert!((found.restitution - wanted).abs() < 2e-5, "{}", found.restitution);
+    assert!(
+        (found.restitution - wanted).abs() < 2e-5,
+        "restitution {} is not the one that was asked for",
+        found.restitution
+    );
 }
 
 #[test]
@@ -128,8 +166,14 @@ fn duration_and_restitution_come_back_from_the_law() {
             for e in [0.01, 0.1, (-2.0_f64).exp(), 0.5, 0.8, 0.99, 1.0] {
                 let law = ContactLaw::from_duration_and_restitution(duration, e, mass).unwrap();
                 // Near ζ = 0 the slope de/dζ is -π; acos near ζ = 1 loses half the digits of 1 - ζ.
-                assert!((law.restitution(mass) - e).abs() < 1e-12, "{e}");
-                assert!((law.duration(mass) / duration - 1.0).abs() < 1e-11, "{e}");
+                assert!(
+                    (law.restitution(mass) - e).abs() < 1e-12,
+                    "a law made for the restitution {e} has another one"
+                );
+                assert!(
+                    (law.duration(mass) / duration - 1.0).abs() < 1e-11,
+                    "a law made for a restitution of {e} has another duration of contact than it was made for"
+                );
             }
         }
     }
@@ -137,10 +181,28 @@ fn duration_and_restitution_come_back_from_the_law() {
 }
 
 #[test]
+fn restitution_near_critical_damping_keeps_its_digits() {
+    // exp(-2 ζ acos ζ/√(1 - ζ²)), continued beyond 1 by acosh, with 40 digits (mpmath).
+    for (zeta, expected) in [
+        (0.99991, 0.135_351_524_883_608_08),
+        (0.99995, 0.135_344_306_024_927_11),
+        (1.00005, 0.135_326_261_320_458_99),
+        (1.00009, 0.135_319_044_415_418_03),
+    ] {
+        // The series used there leaves out 1e-13; its last term is 3e-10 of e at 1e-4 from 1.
+        let off = restitution(zeta) - expected;
+        assert!(off.abs() < 2e-13, "zeta {zeta}: restitution off by {off:e}");
+    }
+}
+
+#[test]
 fn friction_and_rolling_swing_as_long_as_the_contact_lasts() {
     let law = ContactLaw::from_duration_and_restitution(0.3, 1.0, 0.7).unwrap();
     for law in [law, law.with_friction(0.5).unwrap(), law.with_rolling(0.1).unwrap()] {
-        assert!((law.shortest_time(0.7) / 0.3 - 1.0).abs() < 1e-12, "{law:?}");
+        assert!(
+            (law.shortest_time(0.7) / 0.3 - 1.0).abs() < 1e-12,
+            "friction or rolling swings faster than a contact lasts: {law:?}"
+        );
     }
     let law = law.with_friction(0.5).unwrap();
     let equal = &golden_rows("dem/exact_constants.csv")[6];
@@ -167,7 +229,11 @@ fn chung_and_ooi_3_spheres_leave_a_plane_with_the_restitution_asked_for() {
             system.step(2.0 * duration, &[]).unwrap();
             let found = system.grains()[0].velocity.z / speed;
             // The error of 25 sub-steps per contact (grains_motion.rs).
-            assert!((found - e).abs() < 2.7e-3, "{}: {found}, {e}", &row[2]);
+            assert!(
+                (found - e).abs() < 2.7e-3,
+                "{}: restitution {found} of the computed impact, {e} in Chung & Ooi's test",
+                &row[2]
+            );
             rows += 1;
         }
     }
@@ -208,7 +274,10 @@ fn momentum_is_kept_to_round_off_and_energy_to_second_order_in_undamped_impacts(
     println!("energy errors {points:?}, order {order:.2}");
     // Verlet is of second order: within the contact it keeps a shadow energy, and where the contact
     // begins and ends it leaves an error. At 80 per contact, a tenth of that of e at 25, twice.
-    assert!((order - 2.0).abs() < 0.1 && points[2].1 < 4e-4, "{points:?}");
+    assert!(
+        (order - 2.0).abs() < 0.1 && points[2].1 < 4e-4,
+        "errors {points:?} against the sub-step: not of second order, or too large"
+    );
 }
 
 #[test]

@@ -28,10 +28,18 @@ fn force_resolved_at_the_cut_off_and_correction_together_are_the_exact_force() {
         // The asymptotes leave out terms of order gap ln(1/gap): 0.027 at the cut-off for the wall
         // (the table's own asymptote there is 11.432, exact 11.459), 0.031 for spheres.
         let wall = LAW.at_plane(gap, a) / unit + number(cutoff_row, 1);
-        assert!((wall - number(row, 1)).abs() < 0.028, "{gap}: {wall}");
+        assert!(
+            (wall - number(row, 1)).abs() < 0.028,
+            "gap {gap}: force resolved at the cut-off and correction towards a wall add up to \
+             {wall}, not to the exact force within 0.028"
+        );
         // Each at U: they approach at 2 U.
         let spheres = 2.0 * LAW.between_spheres(gap, [a, a]) / unit + number(cutoff_row, 2);
-        assert!((spheres - number(row, 2)).abs() < 0.032, "{gap}: {spheres}");
+        assert!(
+            (spheres - number(row, 2)).abs() < 0.032,
+            "gap {gap}: force resolved at the cut-off and correction of two spheres add up to \
+             {spheres}, not to the exact force within 0.032"
+        );
     }
     // Beyond the cut-off nothing; below the smallest gap and in contact no more.
     assert_eq!(LAW.at_plane(0.2, a), 0.0);
@@ -48,7 +56,10 @@ fn the_law_is_the_same_from_both_sides_and_a_huge_sphere_is_a_plane() {
         assert!((one / two - 1.0).abs() < 1e-14);
         let plane = LAW.at_plane(gap, 1.0);
         let huge = LAW.between_spheres(gap, [1.0, 1e7]);
-        assert!((huge / plane - 1.0).abs() < 1e-5, "{gap}: {huge}, {plane}");
+        assert!(
+            (huge / plane - 1.0).abs() < 1e-5,
+            "gap {gap}: a sphere ten million times as large resists by {huge}, a plane by {plane}"
+        );
     }
 }
 
@@ -76,7 +87,12 @@ fn a_sphere_that_drifts_to_a_wall_loses_the_speed_of_the_closed_form() {
         let gap = position.z - 1.0;
         if gap < next {
             // Second order in dt; over the last gap (2e-3) it moves 3e-3 of the gap in a sub-step.
-            assert!((-velocity.z - exact(gap)).abs() < 1e-3, "{gap}: {velocity}, {}", exact(gap));
+            assert!(
+                (-velocity.z - exact(gap)).abs() < 1e-3,
+                "gap {gap}: a sphere that drifts to a wall moves at {velocity}, by the closed \
+                 form at {} towards it",
+                exact(gap)
+            );
             next *= 0.5;
         }
     }
@@ -110,6 +126,27 @@ fn a_lubrication_that_makes_no_sense_is_refused() {
     assert!(
         message(Lubrication { viscosity: 0.0, ..LAW }).contains("viscosity = 0 must be positive")
     );
-    let gaps = message(Lubrication { smallest_gap: 0.3, ..LAW });
-    assert!(gaps.contains("0 < smallest_gap < cutoff_gap"), "{gaps}");
+    for viscosity in [-1.0, f64::INFINITY, f64::NAN] {
+        assert!(Lubrication { viscosity, ..LAW }.checked().is_err(), "viscosity {viscosity}");
+    }
+    let infinite = f64::INFINITY;
+    for (smallest_gap, cutoff_gap) in
+        [(0.3, 0.2), (0.2, 0.2), (0.0, 0.2), (-1e-3, 0.2), (1e-3, infinite), (f64::NAN, 0.2)]
+    {
+        let gaps = message(Lubrication { smallest_gap, cutoff_gap, ..LAW });
+        assert!(gaps.contains("0 < smallest_gap < cutoff_gap"), "{gaps}");
+    }
+    assert_eq!(LAW.checked(), Ok(LAW));
+}
+
+#[test]
+fn the_largest_coefficient_is_that_of_a_sphere_as_close_to_a_plane_as_counts() {
+    let unit = 6.0 * PI * LAW.viscosity * 3.0;
+    // l/h - l/h_c + (1/5) ln(h_c/h) with l = a = 3, h = 1e-3, h_c = 0.2
+    let expected = unit * (3000.0 - 15.0 + 0.2 * 200.0_f64.ln());
+    let largest = LAW.largest(3.0);
+    assert!((largest / expected - 1.0).abs() < 1e-14, "{largest}, expected {expected}");
+    for radius in [0.5, 3.0] {
+        assert!(LAW.between_spheres(1e-3, [3.0, radius]) < largest);
+    }
 }

@@ -6,7 +6,7 @@ use common::observed_order;
 use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::law::{ContactLaw, Friction};
 use psmrt_reference::grains::lubrication::Lubrication;
-use psmrt_reference::grains::motion::{SUBSTEPS_PER_CONTACT, Substeps};
+use psmrt_reference::grains::motion::{SUBSTEPS_PER_CONTACT, Substeps, divide};
 use psmrt_reference::grains::plane::Plane;
 use psmrt_reference::grains::setup::{GrainError, GrainSetup, PeriodicBox};
 use psmrt_reference::grains::system::GrainSystem;
@@ -52,13 +52,19 @@ fn the_length_of_sub_steps_is_justified_by_the_error_of_restitution() {
         let of_damped = [0.05, 0.2, 0.4, 0.55, 0.6, 0.9].map(|e| worst(e, per_contact));
         let largest = of_damped.into_iter().fold(0.0, f64::max);
         println!("{per_contact}: {of_damped:?}, undamped {}", worst(1.0, per_contact));
-        assert!(largest < damped, "{per_contact}: {largest}");
-        assert!(worst(1.0, per_contact) < undamped, "{per_contact}");
+        assert!(
+            largest < damped,
+            "{per_contact} sub-steps a contact: the damped impact errs by {largest}, more than the bound"
+        );
+        assert!(
+            worst(1.0, per_contact) < undamped,
+            "{per_contact} sub-steps a contact: the elastic impact errs by more than the bound"
+        );
         points.push((1.0 / per_contact, largest));
     }
     // Second order, though the dashpot's force starts with a jump.
     let order = observed_order(&points);
-    assert!(order > 1.9, "{order}");
+    assert!(order > 1.9, "the error of an impact falls with order {order} of the sub-step, not 2");
     assert_eq!(SUBSTEPS_PER_CONTACT, 25.0);
 }
 
@@ -122,6 +128,22 @@ fn sub_steps_are_chosen_and_refused_by_the_contact_duration() {
 }
 
 #[test]
+fn sub_steps_at_the_limits_are_taken_and_beyond_them_refused() {
+    // Ten in the shortest contact are allowed, to the last bit.
+    assert_eq!(divide(1.0, 1.0, Substeps::Fixed(10)), Ok((10, 0.1)));
+    assert!(divide(1.0, 1.0, Substeps::Fixed(9)).is_err());
+    // As many as a u32 holds, and one more.
+    let most = f64::from(u32::MAX);
+    assert_eq!(divide(1.0, 25.0 / (most - 0.5), Substeps::Automatic), Ok((u32::MAX, 1.0 / most)));
+    assert_eq!(divide(1.0, 1.0, Substeps::Fixed(u32::MAX)), Ok((u32::MAX, 1.0 / most)));
+    assert!(divide(1.0, 25.0 / (most + 1.0), Substeps::Automatic).is_err());
+    assert!(divide(1.0, 0.0, Substeps::Automatic).is_err());
+    for step in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+        assert!(divide(step, 1.0, Substeps::Automatic).is_err(), "step {step}");
+    }
+}
+
+#[test]
 fn free_flight_and_steady_torque_are_exact() {
     let law = ContactLaw::new(1.0, 0.0).unwrap();
     let (v, omega) = (Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.2, 0.0, -0.1));
@@ -147,7 +169,10 @@ fn free_flight_and_steady_torque_are_exact() {
         system.step(0.3, &[]).unwrap();
     }
     let turned = system.grains()[0].orientation.scaled_axis();
-    assert!((turned - 3.0 * omega).norm() < round_off, "{turned}");
+    assert!(
+        (turned - 3.0 * omega).norm() < round_off,
+        "angle turned in a time of 3: {turned}, not three times the angular velocity"
+    );
 }
 
 #[test]
@@ -163,7 +188,12 @@ fn held_grains_keep_their_motion_and_push_the_others() {
     assert_eq!((ram.velocity, ram.spin), (Vec3::x(), Vec3::z()));
     assert!((ram.position.x - 0.5).abs() < 1e-14);
     // (1 + e) times the ram's speed, to the error of 25 sub-steps per contact.
-    assert!((hit.velocity.x - 1.5).abs() < 2.7e-3, "{}", hit.velocity.x);
+    assert!(
+        (hit.velocity.x - 1.5).abs() < 2.7e-3,
+        "a grain hit by one that is held in its motion moves at {}, not at (1 + e) of the \
+         other's velocity, 1.5",
+        hit.velocity.x
+    );
 }
 
 #[test]

@@ -95,7 +95,10 @@ fn a_pair_that_touches_through_two_faces_has_two_contacts_and_twice_the_stiffnes
     }
     let shift = system.grains()[1].position.x - system.grains()[0].position.x - 0.95;
     // After one period; Verlet's phase is off by (ω dt)²/24 of it, which counts squared.
-    assert!((shift - 0.01).abs() < 1e-7, "{shift}");
+    assert!(
+        (shift - 0.01).abs() < 1e-7,
+        "after a period of twice the stiffness the pair is {shift} off its balance, not 0.01 as at the start"
+    );
 }
 
 /// A cluster of rough spheres that drifts along with `drift`, in a box with these sides.
@@ -132,11 +135,15 @@ fn contacts_and_their_springs_pass_through_periodic_faces() {
             adrift.pairs().iter().filter(|pair| pair.memory.is_some()).count(),
         );
     }
-    assert!(touched > 500, "{touched}");
+    assert!(touched > 500, "only {touched} contacts were seen: too few to tell anything");
     for (one, two) in at_home.grains().iter().zip(adrift.grains()) {
         // Positions of order 30 are rounded to 4e-15 each of 1000 sub-steps; contacts multiply that.
         let off = two.position - drift - one.position;
-        assert!(off.norm() < 1e-9, "{off}");
+        assert!(
+            off.norm() < 1e-9,
+            "a cluster that drifts through periodic faces moves otherwise than the same at \
+             home: a grain is off by {off}"
+        );
         assert!((two.velocity - drift - one.velocity).norm() < 1e-8);
         assert!((two.spin - one.spin).norm() < 1e-8);
         let sides = adrift.setup().sides;

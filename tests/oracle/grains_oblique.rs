@@ -65,7 +65,10 @@ fn elastic_impacts_that_stick_return_the_surface_velocity_of_the_closed_form() {
             let exact = (PI * (3.5_f64 * ratio).sqrt()).cos();
             // The spring lets go at up to its largest force, ω_t u m_t, half a sub-step early or
             // late: π √3.5/2000.
-            assert!((found - exact).abs() < 3e-3, "{ratio}: {found}, {exact}");
+            assert!(
+                (found - exact).abs() < 3e-3,
+                "angle ratio {ratio}: velocity of the surface after the impact {found}, closed form {exact}"
+            );
         }
     }
 }
@@ -99,12 +102,18 @@ fn chung_and_ooi_4_gross_sliding_follows_its_closed_forms() {
             // e_t = 1 - μ (1 + e)/tan θ: as wrong as e, at most 2.7e-3, times μ/tan θ < 0.14.
             let e_t = after.velocity.x / (normal * tangent);
             let exact = 1.0 - mu * (1.0 + e) / tangent;
-            assert!((e_t - exact).abs() < 4e-4, "{degrees}: {e_t}, {exact}");
+            assert!(
+                (e_t - exact).abs() < 4e-4,
+                "{degrees} degrees: tangential restitution {e_t}, closed form for sliding {exact}"
+            );
             // ω = 2.5 μ (1 + e) v_n/R, less the overlap in the arm: v_n t_c/(π R) at most.
             let omega = after.spin.y;
             let exact = 2.5 * mu * (1.0 + e) * normal / grain.radius;
             let arm = speed * law.duration(grain.mass) / (PI * grain.radius);
-            assert!((omega / exact - 1.0).abs() < arm + 1.5e-3, "{degrees}: {omega}, {exact}");
+            assert!(
+                (omega / exact - 1.0).abs() < arm + 1.5e-3,
+                "{degrees} degrees: angular velocity after the impact {omega}, closed form {exact}"
+            );
         }
     }
 }
@@ -128,10 +137,17 @@ fn chung_and_ooi_4_gross_sliding_agrees_with_benchmark_and_experiment() {
         // Two digitisations differ by 2% of full scale. The experiment's spins scatter by up to 8%,
         // and lie as far from the benchmark's curve.
         let tolerance = if &row[0] == "omega_Kharaz_experiment_rad_s" { 0.08 } else { 0.02 };
-        assert!((found - value).abs() < tolerance * scale, "{}: {found:.4}, {value}", &row[0]);
+        assert!(
+            (found - value).abs() < tolerance * scale,
+            "Chung & Ooi's test, {}: computed {found:.4}, published {value}",
+            &row[0]
+        );
         compared += 1;
     }
-    assert!(compared >= 25, "{compared}");
+    assert!(
+        compared >= 25,
+        "only {compared} published values were compared: has the table changed its form?"
+    );
 }
 
 #[test]
@@ -221,7 +237,10 @@ fn springs_turn_with_a_pair_that_turns_as_a_rigid_body() {
                 Motion { velocity: omega.cross(&centre), spin: omega }
             });
             let relative = Relative::new(&geometry, [&motions[0], &motions[1]]);
-            assert!(relative.velocity.norm() < 1e-14, "rigid");
+            assert!(
+                relative.velocity.norm() < 1e-14,
+                "a pair that turns as a rigid body has a relative velocity at its contact"
+            );
             force = contact_force(&law, &geometry, [&relative; 2], dt, &mut kept).unwrap();
         }
         let spring = kept.unwrap().spring;
@@ -231,8 +250,11 @@ fn springs_turn_with_a_pair_that_turns_as_a_rigid_body() {
     };
     let points = [10, 20, 40].map(|steps| (1.0 / f64::from(steps), error(steps)));
     // The turn is made of a turn of the normal and a twist, which commute to second order.
-    assert!(observed_order(&points) > 1.9, "{points:?}");
-    assert!(points[2].1 < 2e-4, "{points:?}");
+    assert!(
+        observed_order(&points) > 1.9,
+        "errors {points:?} against the sub-step: not of second order"
+    );
+    assert!(points[2].1 < 2e-4, "errors {points:?} against the sub-step: the last is too large");
 }
 
 #[test]

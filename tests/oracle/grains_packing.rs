@@ -39,18 +39,30 @@ fn a_thousand_spheres_are_packed_at_porosity_040_in_the_box_of_the_paper_s_secti
     let volume = lengths.iter().product();
     let radius = radius_for(0.40, 1000, volume);
     // The paper's d is 16.
-    assert!((2.0 * radius - 16.0).abs() < 0.01, "{radius}");
+    assert!(
+        (2.0 * radius - 16.0).abs() < 0.01,
+        "radius {radius} for 1,000 spheres in the paper's box, whose diameter is 16 cells"
+    );
     assert_eq!(count_for(0.40, 8.0, volume), 999.0);
     let packing = PeriodicPacking::new(lengths, vec![radius; 1000], 1).make().unwrap();
     let report = packing.report;
     println!("{report:?}");
-    assert!((report.porosity - 0.40).abs() < 1e-12, "{report:?}");
+    assert!(
+        (report.porosity - 0.40).abs() < 1e-12,
+        "the packing has not the porosity of 0.40 that was asked for: {report:?}"
+    );
     assert!(report.largest_overlap < 0.005, "half a percent of a diameter: {report:?}");
     let (overlap, touching) = by_looking(&packing);
-    assert!((overlap - report.largest_overlap).abs() < 1e-12, "{overlap}, {report:?}");
+    assert!(
+        (overlap - report.largest_overlap).abs() < 1e-12,
+        "largest overlap counted pair by pair {overlap}, reported {report:?}"
+    );
     assert_eq!(2.0 * f64::from(touching) / 1000.0, report.coordination);
     // Above jamming (0.36, where it is 6) fewer.
-    assert!((2.0..6.0).contains(&report.coordination), "{report:?}");
+    assert!(
+        (2.0..6.0).contains(&report.coordination),
+        "coordination number of a loose random packing out of 2 to 6: {report:?}"
+    );
     assert!(packing.grains.iter().all(|grain| {
         (0..3).all(|i| (0.0..=lengths[i]).contains(&grain.position[i]))
             && grain.spin == Vec3::zeros()
@@ -61,7 +73,10 @@ fn a_thousand_spheres_are_packed_at_porosity_040_in_the_box_of_the_paper_s_secti
             (0..3).all(|i| (grain.position[i] > 0.5 * lengths[i]) == (octant >> i & 1 == 1))
         };
         let count = packing.grains.iter().filter(inside).count();
-        assert!(count.abs_diff(125) < 42, "{octant}: {count}");
+        assert!(
+            count.abs_diff(125) < 42,
+            "octant {octant} holds {count} of 1,000 grains, far from 125: the packing is not even"
+        );
     }
 }
 
@@ -111,14 +126,23 @@ fn a_bed_settles_between_walls_or_periodic_sides() {
         println!("{sides:?}: {report:?}");
         assert_eq!(packing.planes.len(), if sides == BedSides::Walls { 5 } else { 1 });
         // Weight presses the grains into each other by a thousandth of d and some chains by more.
-        assert!(report.largest_overlap > 1e-4 && report.largest_overlap < 0.008, "{report:?}");
+        assert!(
+            report.largest_overlap > 1e-4 && report.largest_overlap < 0.008,
+            "grains of a settled bed overlap by their weight, here out of 1e-4 to 0.008 diameters: {report:?}"
+        );
         let (overlap, touching) = by_looking(&packing);
         assert!(report.largest_overlap >= overlap - 1e-12);
         assert_eq!(2.0 * f64::from(touching) / 120.0, report.coordination);
         // Between the densest random packing and the loosest mechanically stable one in so narrow a
         // box; a stable rough sphere needs 4 contacts, with walls' and the surface's taken off.
-        assert!((0.36..0.52).contains(&report.porosity), "{report:?}");
-        assert!((3.0..6.5).contains(&report.coordination), "{report:?}");
+        assert!(
+            (0.36..0.52).contains(&report.porosity),
+            "porosity of a settled bed out of 0.36 to 0.52: {report:?}"
+        );
+        assert!(
+            (3.0..6.5).contains(&report.coordination),
+            "coordination number of a settled bed out of 3 to 6.5: {report:?}"
+        );
         for grain in &packing.grains {
             for plane in &packing.planes {
                 assert!(plane.height(&grain.position) > 0.98 * grain.radius, "inside the box");
@@ -151,7 +175,11 @@ fn porosity_of_a_bed_s_middle_is_that_of_its_slices() {
     }
     let counted = 1.0 - f64::from(inside) / f64::from(all);
     // Overlaps of a few thousandths count once here, twice there; points miss by a few tenths of n⁻¹·⁵.
-    assert!((counted - packing.report.porosity).abs() < 2e-3, "{counted}, {:?}", packing.report);
+    assert!(
+        (counted - packing.report.porosity).abs() < 2e-3,
+        "porosity counted by points {counted}, reported {:?}",
+        packing.report
+    );
 }
 
 #[test]

@@ -62,19 +62,31 @@ fn a_sliding_sphere_rolls_in_the_end_at_five_sevenths_of_its_speed() {
     for part in [0.25, 0.5, 0.75, 0.99] {
         system.step(part * time - elapsed(&system, v0, mu), &[]).unwrap();
         let braked = v0 - mu * part * time;
-        assert!((sphere(&system).velocity.x - braked).abs() < 1e-4, "{part}");
+        assert!(
+            (sphere(&system).velocity.x - braked).abs() < 1e-4,
+            "a sliding sphere after {part} of the time to roll: its velocity is not v - μ g t"
+        );
         // ω = (5/2) μ g t/R
-        assert!((sphere(&system).spin.y - 2.5 * mu * part * time).abs() < 1e-4, "{part}");
+        assert!(
+            (sphere(&system).spin.y - 2.5 * mu * part * time).abs() < 1e-4,
+            "a sliding sphere after {part} of the time to roll: its angular velocity is not 5/2 μ g t/a"
+        );
     }
     // Well after it, it rolls, and has come as far as the closed form says.
     let before = sphere(&system).position.x;
     let expected = distance - (v0 * 0.99 * time - 0.5 * mu * (0.99 * time).powi(2));
     system.step(0.01 * time + 1.0, &[]).unwrap();
     let rolled = sphere(&system).position.x - before;
-    assert!((rolled - (expected + v_end)).abs() < 1e-4, "{rolled}");
+    assert!(
+        (rolled - (expected + v_end)).abs() < 1e-4,
+        "a sliding sphere has come {rolled} far, not as far as the closed form"
+    );
     // v + (2/5) ω R is kept exactly (angular momentum about the contact); R is short by 1e-6.
-    assert!((sphere(&system).velocity.x / v_end - 1.0).abs() < PRESSED, "5/7");
-    assert!(slip(&system).abs() < 1e-9, "rolls: {}", slip(&system));
+    assert!(
+        (sphere(&system).velocity.x / v_end - 1.0).abs() < PRESSED,
+        "a sphere that has stopped sliding does not roll at 5/7 of its first velocity"
+    );
+    assert!(slip(&system).abs() < 1e-9, "a sphere that ought to roll slips at {}", slip(&system));
 }
 
 /// Time since the start of the sliding sphere, from its way: x = v₀ t - μ g t²/2.
@@ -97,14 +109,26 @@ fn on_a_slope_a_sphere_rolls_below_three_and_a_half_times_friction_and_slips_abo
         if rolls {
             // a = (5/7) g sin; the start, when the spring is drawn, costs less than 1e-3 of time.
             let exact = rolling * cosine * tangent * time;
-            assert!((speed / exact - 1.0).abs() < 1e-3, "{tangent}: {speed}, {exact}");
-            assert!(slip.abs() < 1e-6, "{tangent} rolls: {slip}");
+            assert!(
+                (speed / exact - 1.0).abs() < 1e-3,
+                "slope {tangent}: a sphere rolls down at {speed}, closed form {exact}"
+            );
+            assert!(
+                slip.abs() < 1e-6,
+                "slope {tangent}: a sphere that ought to roll slips at {slip}"
+            );
         } else {
             // a = g (sin - μ cos), slip = g (sin - 3.5 μ cos) t
             let exact = cosine * (tangent - mu) * time;
-            assert!((speed / exact - 1.0).abs() < 1e-3, "{tangent}: {speed}, {exact}");
+            assert!(
+                (speed / exact - 1.0).abs() < 1e-3,
+                "slope {tangent}: a sphere slides down at {speed}, closed form {exact}"
+            );
             let exact = cosine * (tangent - 3.5 * mu) * time;
-            assert!((slip / exact - 1.0).abs() < 0.1, "{tangent} slips: {slip}, {exact}");
+            assert!(
+                (slip / exact - 1.0).abs() < 0.1,
+                "slope {tangent}: a sphere slips at {slip}, closed form {exact}"
+            );
         }
     }
 }
@@ -120,12 +144,25 @@ fn a_sphere_that_cannot_roll_stays_below_the_angle_of_friction_and_slides_above(
         let Grain { position, velocity, spin, .. } = sphere(&system);
         if stays {
             // The springs start undrawn and swing over: near the limit it slips a little at first.
-            assert!(position.x < 1e-4, "{tangent}: {position}");
-            assert!(velocity.norm() < 1e-12 && spin.norm() < 1e-12, "{tangent}: {velocity} {spin}");
+            assert!(
+                position.x < 1e-4,
+                "slope {tangent}: a sphere that cannot roll ought to stay and has come to {position}"
+            );
+            assert!(
+                velocity.norm() < 1e-12 && spin.norm() < 1e-12,
+                "slope {tangent}: a sphere that cannot roll ought to be at rest, and moves at \
+                 {velocity} and turns at {spin}"
+            );
         } else {
             let exact = (tangent - mu) / (1.0 + tangent * tangent).sqrt();
-            assert!((velocity.x / exact - 1.0).abs() < 0.1, "{tangent}: {velocity}, {exact}");
-            assert!(spin.norm() < 1e-3, "{tangent}: {spin}");
+            assert!(
+                (velocity.x / exact - 1.0).abs() < 0.1,
+                "slope {tangent}: a sphere that cannot roll slides at {velocity}, closed form {exact} along x"
+            );
+            assert!(
+                spin.norm() < 1e-3,
+                "slope {tangent}: a sphere that ought to slide without rolling turns at {spin}"
+            );
         }
     }
 }
@@ -141,7 +178,7 @@ fn rolling_resistance_holds_a_sphere_up_to_its_slope_and_brakes_one_that_rolls()
         // Beyond: a = (5/7) g (sin - μ_r cos)
         let exact = 5.0 / 7.0 * (tangent - mu_r) / (1.0 + tangent * tangent).sqrt();
         let found = if stays { speed.abs() < 1e-12 } else { (speed / exact - 1.0).abs() < 0.1 };
-        assert!(found, "{tangent}: {speed}, {exact}");
+        assert!(found, "slope {tangent}: a sphere slides down at {speed}, closed form {exact}");
     }
     // On the level: dv/dt = -(5/7) μ_r g
     let mut system = on_slope(0.0, resisting, Vec3::zeros());
@@ -152,10 +189,18 @@ fn rolling_resistance_holds_a_sphere_up_to_its_slope_and_brakes_one_that_rolls()
     system.edit(|grains, _| rolling(&mut grains[0])).unwrap();
     system.step(5.0, &[]).unwrap();
     let exact = 1.0 - 5.0 / 7.0 * mu_r * 5.0;
-    assert!((sphere(&system).velocity.x - exact).abs() < 1e-4, "{}", sphere(&system).velocity.x);
+    assert!(
+        (sphere(&system).velocity.x - exact).abs() < 1e-4,
+        "a sphere that rolls against its resistance moves at {}, not by the closed form",
+        sphere(&system).velocity.x
+    );
     // It stops at 14 and does not roll back.
     system.step(15.0, &[]).unwrap();
-    assert!(sphere(&system).velocity.norm() < 1e-9, "{}", sphere(&system).velocity);
+    assert!(
+        sphere(&system).velocity.norm() < 1e-9,
+        "the sphere ought to have stopped and moves at {}",
+        sphere(&system).velocity
+    );
 }
 
 #[test]
@@ -163,7 +208,10 @@ fn a_belt_drags_a_sphere_to_two_sevenths_of_its_speed_and_one_that_cannot_roll_a
     let (mu, belt) = (0.3, Vec3::new(1.0, 0.0, 0.0));
     let mut system = on_slope(0.0, law(mu), belt);
     system.step(0.1, &[]).unwrap();
-    assert!((sphere(&system).velocity.x - 0.1 * mu).abs() < 1e-4, "dragged by μ g");
+    assert!(
+        (sphere(&system).velocity.x - 0.1 * mu).abs() < 1e-4,
+        "a belt ought to drag the sphere with μ g, and its velocity is another"
+    );
     // Friction on the belt is the sphere's reversed.
     let (drag, weight) = (system.force_on_plane(0), sphere(&system).mass);
     assert!(
@@ -178,7 +226,11 @@ fn a_belt_drags_a_sphere_to_two_sevenths_of_its_speed_and_one_that_cannot_roll_a
     let mut system = on_slope(0.0, block, belt);
     // 1/(μ g) = 3.3, and time to calm down.
     system.step(4.0, &[]).unwrap();
-    assert!((sphere(&system).velocity - belt).norm() < 1e-9, "{}", sphere(&system).velocity);
+    assert!(
+        (sphere(&system).velocity - belt).norm() < 1e-9,
+        "a sphere that cannot roll ought to move with the belt and moves at {}",
+        sphere(&system).velocity
+    );
 }
 
 #[test]
@@ -193,7 +245,11 @@ fn a_piston_throws_a_sphere_forward_at_its_own_speed_and_the_rebound_s() {
         system.step(0.01, &[]).unwrap();
         let speed = system.grains()[0].velocity.x;
         // v = (1 + e) V; e to the error of 25 sub-steps per contact (grains_motion.rs).
-        assert!((speed - 0.5 * (1.0 + e)).abs() < 0.5 * 2.7e-3, "{e}: {speed}");
+        assert!(
+            (speed - 0.5 * (1.0 + e)).abs() < 0.5 * 2.7e-3,
+            "restitution {e}: the piston throws the sphere at {speed}, not at (1 + e) times \
+             its own velocity of 0.5"
+        );
     }
 }
 
@@ -211,9 +267,16 @@ fn rolling_resistance_of_a_pair_is_limited_by_its_reduced_radius_and_twisting_is
     };
     let (torques, spring) = exert(Vec3::new(5.0, 0.0, 0.0));
     // μ_r R_r k δ against the spin; couple per radian (2/5) k R_r²
-    assert!((torques[0] + Vec3::new(0.2 * 0.75 * 0.2, 0.0, 0.0)).norm() < 1e-15, "{torques:?}");
+    assert!(
+        (torques[0] + Vec3::new(0.2 * 0.75 * 0.2, 0.0, 0.0)).norm() < 1e-15,
+        "torques of rolling resistance {torques:?}: not the limit, friction of rolling times \
+         reduced radius times force"
+    );
     assert_eq!(torques[0], -torques[1]);
-    assert!((0.4 * 2.0 * 0.75 * 0.75 * spring.x - 0.2 * 0.75 * 0.2).abs() < 1e-15, "{spring}");
+    assert!(
+        (0.4 * 2.0 * 0.75 * 0.75 * spring.x - 0.2 * 0.75 * 0.2).abs() < 1e-15,
+        "spring of rolling resistance {spring}: not where its torque is at its limit"
+    );
     let (torques, spring) = exert(Vec3::new(0.0, 0.0, 5.0));
     assert_eq!((torques, spring), ([Vec3::zeros(); 2], Vec3::zeros()));
 

@@ -47,8 +47,16 @@ fn a_pyramid_at_rest_stays_at_rest_for_a_hundred_thousand_sub_steps() {
         let (way, turn) =
             ((now.position - then.position).norm(), now.orientation.angle_to(&then.orientation));
         // Round-off of positions of order 2, added up at random over 1e5 sub-steps: 300 x 4e-16.
-        assert!(way < 1e-13 && now.velocity.norm() < 1e-12, "{way:e} {:e}", now.velocity.norm());
-        assert!(turn < 1e-7 && now.spin.norm() < 1e-12, "{turn:e} {:e}", now.spin.norm());
+        assert!(
+            way < 1e-13 && now.velocity.norm() < 1e-12,
+            "a grain of a pyramid at rest has moved by {way:e}, its velocity is {:e}",
+            now.velocity.norm()
+        );
+        assert!(
+            turn < 1e-7 && now.spin.norm() < 1e-12,
+            "a grain of a pyramid at rest has turned by {turn:e}, its angular velocity is {:e}",
+            now.spin.norm()
+        );
     }
     let weight: f64 = start.iter().map(|grain| grain.mass).sum();
     assert!((system.force_on_plane(0).z + weight).abs() < 1e-10 * weight);
@@ -85,7 +93,11 @@ fn permuted_numbers_give_the_same_motion_over_the_first_contacts() {
     let (mut contacts, mut were_touching, mut substeps) = (0, 0, 0);
     while contacts < 10 {
         substeps += 1;
-        assert!(substeps < 10_000, "{contacts} contacts");
+        assert!(
+            substeps < 10_000,
+            "after 10,000 sub-steps there are {contacts} contacts: the state that the test \
+             needs was never reached"
+        );
         system.substep(1e-3, &[]).unwrap();
         permuted.substep(1e-3, &[]).unwrap();
         let touching = system.pairs().iter().filter(|pair| pair.memory.is_some()).count();
@@ -96,9 +108,18 @@ fn permuted_numbers_give_the_same_motion_over_the_first_contacts() {
         let (one, two) = (&system.grains()[number], &permuted.grains()[place]);
         // Some hundred sub-steps, each rounding quantities of order 1; ten contacts multiply a
         // difference by about ten each at worst, but few grains have seen more than one.
-        assert!((one.position - two.position).norm() < 1e-12, "{number}");
-        assert!((one.velocity - two.velocity).norm() < 1e-11, "{number}");
-        assert!((one.spin - two.spin).norm() < 1e-11, "{number}");
+        assert!(
+            (one.position - two.position).norm() < 1e-12,
+            "grain {number}: its place depends on how the grains are numbered"
+        );
+        assert!(
+            (one.velocity - two.velocity).norm() < 1e-11,
+            "grain {number}: its velocity depends on how the grains are numbered"
+        );
+        assert!(
+            (one.spin - two.spin).norm() < 1e-11,
+            "grain {number}: its angular velocity depends on how the grains are numbered"
+        );
     }
 }
 
@@ -110,7 +131,11 @@ fn a_run_that_is_stopped_and_resumed_gives_the_same_bits() {
     while system.state().pair_contacts.len() < 10 {
         system.step(0.01, &[]).unwrap();
         steps += 1;
-        assert!(steps < 1000, "{} contacts", system.state().pair_contacts.len());
+        assert!(
+            steps < 1000,
+            "after 1,000 steps there are {} contacts: the state that the test needs was never reached",
+            system.state().pair_contacts.len()
+        );
     }
     let mut resumed = GrainSystem::resume(*system.setup(), system.state()).unwrap();
     system.step(0.4, &[]).unwrap();
@@ -140,5 +165,8 @@ fn pairs_that_are_moved_apart_by_hand_forget_their_springs_and_others_keep_them(
     assert_eq!((after.len(), after[0].pair), (1, before[1].pair));
     // Put into the plane of contact again, which rounds.
     let spring = before[1].memory.spring;
-    assert!((after[0].memory.spring - spring).norm() < 1e-16 && spring.y > 0.01, "{spring}");
+    assert!(
+        (after[0].memory.spring - spring).norm() < 1e-16 && spring.y > 0.01,
+        "the spring of the pair that stayed together has changed; it was {spring}"
+    );
 }

@@ -55,7 +55,10 @@ fn solid_that_moves_too_fast_is_named() {
     let phase = SolidPhase { solids: vec![slow, fast], ..SolidPhase::default() };
     let setup = Setup::fluid(box_of([8, 8, 8], Faces::PERIODIC), SRT).with_solids(phase);
     let stopped = stop(Solver::new(setup).unwrap(), "solid 1 moves at 1.000");
-    assert!(matches!(stopped.cause, Cause::SolidSpeed { solid: 1, .. }), "{stopped}");
+    assert!(
+        matches!(stopped.cause, Cause::SolidSpeed { solid: 1, .. }),
+        "the cause ought to be the speed of solid 1, and is: {stopped}"
+    );
 }
 
 #[test]
@@ -64,7 +67,10 @@ fn wall_that_moves_too_fast_is_named() {
     let faces = Faces { z: [Face::wall(), lid], ..Faces::PERIODIC };
     let solver = Solver::new(Setup::fluid(box_of([4, 4, 6], faces), SRT)).unwrap();
     let stopped = stop(solver, "face +z");
-    assert!(matches!(stopped.cause, Cause::FaceSpeed { face: "+z", .. }), "{stopped}");
+    assert!(
+        matches!(stopped.cause, Cause::FaceSpeed { face: "+z", .. }),
+        "the cause ought to be the speed at face +z, and is: {stopped}"
+    );
 }
 
 #[test]
@@ -75,7 +81,10 @@ fn pressures_too_far_apart_are_named() {
     };
     let setup = Setup::fluid(box_of([20, 3, 3], faces), Collision::Srt { tau: 0.55 });
     let stopped = stop(Solver::new(setup).unwrap(), "pressures at the faces");
-    assert!(matches!(stopped.cause, Cause::PressureDifference { .. }), "{stopped}");
+    assert!(
+        matches!(stopped.cause, Cause::PressureDifference { .. }),
+        "the cause ought to be the difference of pressures, and is: {stopped}"
+    );
 }
 
 #[test]
@@ -88,7 +97,10 @@ fn mean_density_that_drifts_away_is_named() {
     };
     let solver = Solver::new(Setup::fluid(box_of([16, 6, 6], faces), SRT)).unwrap();
     let stopped = stop(solver, "pressure outlet");
-    assert!(matches!(stopped.cause, Cause::DensityDrift { .. }), "{stopped}");
+    assert!(
+        matches!(stopped.cause, Cause::DensityDrift { .. }),
+        "the cause ought to be the drift of the density, and is: {stopped}"
+    );
 }
 
 #[test]
@@ -96,9 +108,16 @@ fn body_force_that_nothing_holds_back_is_named() {
     let setup =
         Setup::fluid(box_of([4, 4, 4], Faces::PERIODIC), SRT).with_body_force(along_x(1e-3));
     let stopped = stop(Solver::new(setup).unwrap(), "body force");
-    assert!(matches!(stopped.cause, Cause::BodyForce { .. }), "{stopped}");
+    assert!(
+        matches!(stopped.cause, Cause::BodyForce { .. }),
+        "the cause ought to be the body force, and is: {stopped}"
+    );
     // 0.5 of speed at 1e-3 a step takes 500 steps; the guard looks every 16.
-    assert!((500..=516).contains(&stopped.step), "{}", stopped.step);
+    assert!(
+        (500..=516).contains(&stopped.step),
+        "the fall reaches the guard's limit at step 500, and was stopped at {}",
+        stopped.step
+    );
     assert!(matches!(stopped.symptom, Symptom::TooFast(_)));
 }
 
@@ -111,7 +130,10 @@ fn flow_too_fast_for_its_viscosity_is_named() {
         (1.0, Vec3::new(u, 0.05 * (x.x * 0.2618).sin(), 0.0))
     });
     let stopped = stop(solver.unwrap(), "grid Reynolds number");
-    assert!(matches!(stopped.cause, Cause::Unresolved { .. }), "{stopped}");
+    assert!(
+        matches!(stopped.cause, Cause::Unresolved { .. }),
+        "the cause ought to be a flow that the grid does not resolve, and is: {stopped}"
+    );
 }
 
 #[test]

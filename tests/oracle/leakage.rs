@@ -82,7 +82,7 @@ fn slab_leaks_half_the_force_on_each_layer_whatever_tau_operator_and_collision()
                     // full cell gathers (last test) is 4 j² a step and layer: 1e-7 of j.
                     assert!(
                         (j / expected - 1.0).abs() < 1e-6,
-                        "{collision:?} {operator:?}, {layers} layers, cell {cell}: {j:e}"
+                        "{collision:?} {operator:?}, {layers} layers, cell {cell}: flux {j:e}, not {expected:e}"
                     );
                 }
             }
@@ -110,7 +110,8 @@ fn slab_leaks_half_the_pressure_gradient_downhill() {
                     // in all. As much again for waves that 6000 steps have not damped.
                     assert!(
                         (j / (0.5 * gradient) - 1.0).abs() < 4e-6,
-                        "{collision:?} {operator:?}: {j:e}, gradient {gradient:e}"
+                        "{collision:?} {operator:?}: flux through a slab {j:e}, not half of \
+                         the pressure gradient {gradient:e}"
                     );
                 }
             }
@@ -147,7 +148,7 @@ fn thick_solid_slides_as_one_block_under_bounce_back_at_every_tau() {
                 // Round-off as above, and the approach: 30,000 steps are 30 times the slowest time.
                 assert!(
                     (j / expected - 1.0).abs() < 1e-6,
-                    "{collision:?}: {j:e}, not {expected:e}"
+                    "{collision:?}: flux through the slab {j:e}, not {expected:e}"
                 );
             }
         }
@@ -217,7 +218,13 @@ fn full_cell_of_bounce_back_gathers_mass_as_the_square_of_its_leak() {
     let superposition = rise(SolidOperator::Superposition, &mut budget);
     println!("per step: {bounce_back:e}, {superposition:e}, expected {expected:e}");
     // Next order: ρ is not 1 where the pressure falls, 1e-5 to 1e-4 of it.
-    assert!((bounce_back / expected - 1.0).abs() < 1e-3, "{bounce_back:e}, not {expected:e}");
+    assert!(
+        (bounce_back / expected - 1.0).abs() < 1e-3,
+        "a step gathers {bounce_back:e} of mass in full cells of bounce-back, not {expected:e}"
+    );
     // It relaxes what bounce-back keeps.
-    assert!(superposition.abs() < 1e-3 * expected, "{superposition:e}");
+    assert!(
+        superposition.abs() < 1e-3 * expected,
+        "a step gathers {superposition:e} of mass in full cells of superposition, which ought to relax it"
+    );
 }

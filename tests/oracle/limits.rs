@@ -61,7 +61,11 @@ fn vanishing_solid_leaves_the_fluids_collision_to_the_last_bit() {
                 // A weight of 1e-300 runs the whole PS code and lies below the last bit.
                 let solids = vec![solid(1e-300, random.vector(0.1))];
                 let phase = SolidPhase { solids, weighting, operator, ..SolidPhase::default() };
-                assert_eq!(collide(&f, collision, g, phase), fluid, "{collision:?} {operator:?}");
+                assert_eq!(
+                    collide(&f, collision, g, phase),
+                    fluid,
+                    "{collision:?} {operator:?}: a solid of weight 1e-300 changes the collision of the fluid"
+                );
             }
         }
     }
@@ -103,7 +107,10 @@ fn full_cell_of_a_resting_solid_keeps_no_momentum() {
                 let phase = SolidPhase { solids, operator, ..SolidPhase::default() };
                 // Momentum is a sum of 18 populations below 0.1.
                 let left = momentum(&collide(&f, collision, g, phase)).norm();
-                assert!(left < 1e-15, "{operator:?}: {left:e}");
+                assert!(
+                    left < 1e-15,
+                    "{operator:?}: a full cell at rest leaves the momentum {left:e}"
+                );
             }
         }
     }
@@ -180,7 +187,10 @@ fn fluid_that_moves_with_the_solid_feels_nothing() {
             let lambda = prepared.lambda(&u);
             // Each entry is a difference of equal numbers below 0.4; M⁻¹ S (m - m_eq) adds
             // the round-off of two matrix products.
-            assert!(largest_difference(&lambda, &[0.0; Q]) < 1e-15, "{operator:?}");
+            assert!(
+                largest_difference(&lambda, &[0.0; Q]) < 1e-15,
+                "{operator:?}: the solid part changes an equilibrium that moves with the solid"
+            );
         }
     }
 }
@@ -198,7 +208,10 @@ fn sphere_that_drifts_with_a_uniform_stream_leaves_it_uniform() {
         // A uniform stream is a fixed point of every part of the step: what remains is round-off,
         // 1e-16 a step in each of 8^3 cells.
         let largest = solver.velocity_field().iter().map(|v| (v - u).norm()).fold(0.0, f64::max);
-        assert!(largest < 1e-13, "{operator:?}: {largest:e}");
+        assert!(
+            largest < 1e-13,
+            "{operator:?}: a sphere that drifts with a uniform stream disturbs it by {largest:e}"
+        );
         assert!(solver.loads()[0].force.norm() < 1e-12);
     }
 }

@@ -64,7 +64,13 @@ fn moment_matrix_is_the_published_one() {
     for moment in 0..Q {
         for a in 0..Q {
             let published: f64 = rows[moment + 1][a].parse().unwrap();
-            assert_eq!(m[(moment, a)], published, "{} along {:?}", NAMES[moment], C[a]);
+            assert_eq!(
+                m[(moment, a)],
+                published,
+                "entry of M for {} along {:?} is not the published one",
+                NAMES[moment],
+                C[a]
+            );
         }
     }
 }
@@ -122,7 +128,12 @@ fn rows_of_the_moment_matrix_are_what_gram_schmidt_makes_of_the_monomials() {
         for a in 0..Q {
             // The same up to its length; 19 projections of numbers of order one lose 1e-14 at most.
             let expected = m[(moment, a)] / ROW_NORMS[moment].sqrt();
-            assert!((row[a] - expected).abs() < 1e-14, "{} along {:?}", NAMES[moment], C[a]);
+            assert!(
+                (row[a] - expected).abs() < 1e-14,
+                "Gram-Schmidt gives another entry of M for {} along {:?}",
+                NAMES[moment],
+                C[a]
+            );
         }
         basis.push(row);
     }
@@ -165,7 +176,11 @@ fn moment_equilibria_are_the_moments_of_the_velocity_equilibria() {
             // Round-off of a sum, over the sum of the absolute terms.
             let f_eq = equilibrium(rho, &u);
             let gauge: f64 = (0..Q).map(|a| (m[(k, a)] * f_eq[a]).abs()).sum();
-            assert!((m_eq[k] - of_f_eq[k]).abs() < 8.0 * f64::EPSILON * gauge, "{}", NAMES[k]);
+            assert!(
+                (m_eq[k] - of_f_eq[k]).abs() < 8.0 * f64::EPSILON * gauge,
+                "equilibrium of the moment {} is not the moment of the equilibrium",
+                NAMES[k]
+            );
         }
     }
 }
@@ -179,7 +194,11 @@ fn moments_of_the_body_force_are_the_moments_of_guos_source() {
         let (written_out, summed) = (source_moments(&u, &g), to_moments.times(&source(&u, &g)));
         for k in 0..Q {
             // Sums of 19 terms of at most 30 |F_a| <= 30 w 3 (|c| + |u|) |G| < 20.
-            assert!((written_out[k] - summed[k]).abs() < 1e-13, "{}", NAMES[k]);
+            assert!(
+                (written_out[k] - summed[k]).abs() < 1e-13,
+                "body force of the moment {} is not the moment of Guo's source",
+                NAMES[k]
+            );
         }
     }
 }

@@ -145,7 +145,10 @@ fn plane_walls_lie_where_an_independent_computation_puts_them() {
             ("flow error", found.flow_error, 7),
         ] {
             let table = number(column);
-            assert!((ours - table).abs() < tolerance, "{what} {ours:.6}, table {table}: {row:?}");
+            assert!(
+                (ours - table).abs() < tolerance,
+                "{what}: computed {ours:.6}, by the independent computation {table}: {row:?}"
+            );
         }
         compared += 1;
     }
@@ -174,7 +177,15 @@ fn the_solid_fraction_as_weight_misplaces_walls_near_tau_one_half_and_noble_torc
         // A sixteenth of a cell, at tau = 0.51 with MRT's own wall 0.031 inside included; with the
         // solid fraction the wall is where the cell begins to be covered, up to a whole cell inside,
         // as tau nears 1/2.
-        assert!(noble_torczynski < 1.0 / 16.0, "tau {tau}: {noble_torczynski}");
-        assert!(solid_fraction > 0.3, "tau {tau}: {solid_fraction}");
+        assert!(
+            noble_torczynski < 1.0 / 16.0,
+            "tau {tau}: with Noble and Torczynski's weight the wall lies {noble_torczynski} of \
+             a cell off, a sixteenth is allowed"
+        );
+        assert!(
+            solid_fraction > 0.3,
+            "tau {tau}: with B = epsilon the wall ought to lie more than 0.3 of a cell off, \
+             and is {solid_fraction} off"
+        );
     }
 }

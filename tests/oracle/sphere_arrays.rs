@@ -98,7 +98,8 @@ fn drag_of_all_three_lattices_converges_to_the_tables_with_second_order() {
             // sphere's surface lay a twentieth of a cell inside at 6 cells per diameter.
             assert!(
                 (-2.0 * leak..-leak).contains(&error),
-                "{name}, {diameter}: {error}, leak {leak}"
+                "{name}, {diameter} cells a diameter: the drag errs by {error}, not by one to \
+                 two times the leak {leak}"
             );
             (1.0 / diameter, error)
         });
@@ -107,7 +108,11 @@ fn drag_of_all_three_lattices_converges_to_the_tables_with_second_order() {
         // The leak is of second order; x/(1 + x) takes a tenth off. A plane wall lies 0.02 cells in the
         // fluid at any resolution (`tests/oracle/ps_channel_wall.rs`): a small part of first order and of the
         // other sign, which makes the order look higher by as much.
-        assert!((order - 2.0).abs() < 0.3, "{}: order {order}", case.lattice.name());
+        assert!(
+            (order - 2.0).abs() < 0.3,
+            "{}: the error of the drag falls with order {order}, not 2",
+            case.lattice.name()
+        );
     }
 }
 
@@ -120,9 +125,18 @@ fn whole_cell_and_its_quarter_between_mirror_planes_give_the_same_drag_for_all_t
         let (quarter, whole) = (case.flow(&quarter, &mut budget), case.flow(&whole, &mut budget));
         assert_eq!(quarter.steps, whole.steps);
         // The same sums in another order: U = 1e-4 of populations of 0.3, kept for 1000 steps.
-        assert!((quarter.k / whole.k - 1.0).abs() < 1e-9, "{} {}", quarter.k, whole.k);
+        assert!(
+            (quarter.k / whole.k - 1.0).abs() < 1e-9,
+            "drag of the quarter between mirror planes {}, of the whole cell {}",
+            quarter.k,
+            whole.k
+        );
         // The balance of forces: what the flux still changes by.
-        assert!(whole.imbalance.abs() < 1e-4, "{}", whole.imbalance);
+        assert!(
+            whole.imbalance.abs() < 1e-4,
+            "force on the spheres is off the driving force by {}: momentum is lost between fluid and solid",
+            whole.imbalance
+        );
     }
 }
 
@@ -139,7 +153,11 @@ fn position_between_the_nodes_changes_drag_by_a_tenth_of_its_error() {
         println!("{shift:?}: {moved:.4}, at a corner {corner:.4}");
         // Exact solid fractions see the volume alike everywhere; what is left is how many cells are
         // full. Six cells per diameter.
-        assert!((moved - corner).abs() < 0.1 * corner.abs(), "{shift:?}: {moved}, {corner}");
+        assert!(
+            (moved - corner).abs() < 0.1 * corner.abs(),
+            "spheres moved by {shift:?} cells: their drag errs by {moved}, at the corner of \
+             the grid by {corner}"
+        );
     }
 }
 
@@ -150,8 +168,18 @@ fn drag_does_not_depend_on_a_small_reynolds_number() {
         .map(|reynolds| SC.flow(&Array { reynolds, ..SC.array(12, dhumieres(0.8)) }, &mut budget));
     assert!(slow.reynolds < 0.002 && (9.9..10.1).contains(&(faster.reynolds / slow.reynolds)));
     // By symmetry the drag of an array is even in U: inertia enters as Re², 1e-4 here and 1e-2 below.
-    assert!((faster.k / slow.k - 1.0).abs() < 1e-6, "{} {}", faster.k, slow.k);
-    assert!((fast.k / slow.k - 1.0).abs() < 1e-4, "{} {}", fast.k, slow.k);
+    assert!(
+        (faster.k / slow.k - 1.0).abs() < 1e-6,
+        "ten times as fast the drag coefficient is {}, slow {}: the flow is not slow",
+        faster.k,
+        slow.k
+    );
+    assert!(
+        (fast.k / slow.k - 1.0).abs() < 1e-4,
+        "a hundred times as fast the drag coefficient is {}, slow {}: inertia shows more than it ought to",
+        fast.k,
+        slow.k
+    );
 }
 
 #[test]
@@ -163,7 +191,11 @@ fn error_with_noble_torczynskis_weight_falls_on_finer_grids_at_every_tau_and_gro
             [8, 16].map(|side| SC.error(&SC.array(side, dhumieres(tau)), &mut budget));
         println!("tau {tau}: {coarse:.4} at 4 cells per diameter, {fine:.4} at 8");
         // Second order would leave a quarter; where x is not small (0.5 at tau = 1.5), a third.
-        assert!(coarse < 0.0 && (0.1..0.35).contains(&(fine / coarse)), "tau {tau}");
+        assert!(
+            coarse < 0.0 && (0.1..0.35).contains(&(fine / coarse)),
+            "tau {tau}: error of the drag ought to be negative and to fall to between 0.1 and \
+             0.35 on twice the grid"
+        );
         (tau, fine)
     });
     let leak = |tau| SC.leak(&SC.array(16, dhumieres(tau)));
@@ -189,11 +221,18 @@ fn error_with_the_solid_fraction_as_weight_changes_sign_with_tau_and_does_not_fa
     // per diameter makes up for the leak by chance: the error is small there, and larger at 8.
     let (coarse, fine) = (error(0.8, 8), error(0.8, 16));
     println!("tau 0.8: {coarse:.4} at 4 cells per diameter, {fine:.4} at 8");
-    assert!(coarse.abs() < 0.05 && fine > 2.0 * coarse, "{coarse}, {fine}");
+    assert!(
+        coarse.abs() < 0.05 && fine > 2.0 * coarse,
+        "B = epsilon at tau near 1: errors {coarse} and {fine} on twice the grid: they ought \
+         to start by cancelling and grow"
+    );
     let (low, high) = (error(0.6, 16), error(1.5, 16));
     println!("8 cells per diameter: tau 0.6 {low:.4}, tau 1.5 {high:.4}");
     // Where Noble and Torczynski's weight is off by 3% (test above).
-    assert!(low > 0.2 && high < -0.05, "{low}, {high}");
+    assert!(
+        low > 0.2 && high < -0.05,
+        "B = epsilon: errors {low} at small and {high} at large tau: they ought to be of either sign"
+    );
 }
 
 #[test]
@@ -216,7 +255,11 @@ fn dhumieres_rates_with_bounce_back_err_least_from_tau_0_6_up_in_dilute_and_dens
                 let other = error(collision, operator, &mut budget);
                 println!("{}, tau {tau}: {best:.4}, {name} {other:.4}", case.lattice.name());
                 // Both too low, by different amounts; 1e-3 is a hundred times what is open.
-                assert!(other < best - 1e-3 && best < 0.0, "tau {tau}: {name} {other}, {best}");
+                assert!(
+                    other < best - 1e-3 && best < 0.0,
+                    "tau {tau}: {name} errs by {other}, d'Humieres' rates by {best}: they \
+                     ought to err least, and below 0"
+                );
             }
         }
     }

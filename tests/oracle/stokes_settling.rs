@@ -65,14 +65,23 @@ fn sphere_settles_in_a_closed_duct_with_the_exact_drag_at_second_order() {
     // The sphere leaks as a body of permeability nu/2, which at this relaxation time takes 3 % off the
     // drag at 8 cells (golden/sphere_arrays/study.csv) and as much again in so narrow a duct. From
     // place to place on the grid the drag varies by 0.3 %, a tenth of the error at 8 cells.
-    assert!(errors.iter().all(|(_, error)| *error < 0.0), "{errors:?}");
+    assert!(
+        errors.iter().all(|(_, error)| *error < 0.0),
+        "errors of the drag {errors:?}: all ought to be negative, as a sphere that leaks has them"
+    );
     // That is 0.15 in the order; on grids this coarse a third-order part shows as much.
-    assert!((order - 2.0).abs() < 0.35, "{order}");
-    assert!(errors[2].1.abs() < 0.045, "{errors:?}");
+    assert!((order - 2.0).abs() < 0.35, "the error of the drag falls with order {order}, not 2");
+    assert!(
+        errors[2].1.abs() < 0.045,
+        "errors of the drag {errors:?}: the finest grid ought to be within 4.5 %"
+    );
     // Both finest grids extrapolated with the second order; what is left is of a higher order and
     // the 0.3 %, which the extrapolation doubles.
     let finest = (64.0 * found[2].1 - 36.0 * found[1].1) / 28.0;
-    assert!((finest / exact - 1.0).abs() < 0.02, "extrapolated {finest}");
+    assert!(
+        (finest / exact - 1.0).abs() < 0.02,
+        "drag over Stokes' extrapolated to fine grids: {finest}, not within 2 % of the exact one"
+    );
 }
 
 /// Drag over Stokes' drag of a sphere of 8 cells that moves slowly towards a wall, at `gap` cells from
@@ -129,18 +138,27 @@ fn sphere_approaches_a_wall_by_the_exact_law_down_to_half_a_cell_and_with_lubric
         println!("gap of {gap} cells: {found:.3}, exact {exact:.3}");
         // The drag of a sphere of 8 cells is 3 % too small to begin with; near a wall the sphere's
         // leaking counts more, by up to about twice that.
-        assert!((found / exact - 1.0).abs() < 0.09, "gap {gap}: {found}, {exact}");
+        assert!(
+            (found / exact - 1.0).abs() < 0.09,
+            "gap of {gap} cells to the wall: drag over Stokes' {found}, exact {exact}"
+        );
     }
     // A gap of a tenth of a cell the grid does not see; what it misses is what lubrication adds from
     // the gap on that it still resolves.
     let (gap, found) = resolved(0.08, 4.0);
     let exact = exact_approach(gap / radius);
-    assert!(found < 0.5 * exact, "{found}, {exact}");
+    assert!(
+        found < 0.5 * exact,
+        "without lubrication the resolved force {found} ought to be below half of the exact {exact}"
+    );
     let lubrication =
         Lubrication { viscosity: viscosity(TAU), cutoff_gap: 0.3, smallest_gap: 1e-3 }.checked();
     let added = lubrication.unwrap().at_plane(gap, radius) / (6.0 * PI * viscosity(TAU) * radius);
     println!("gap of {gap} cells: {found:.3} and {added:.3} by lubrication, exact {exact:.3}");
     // The grid's own drag still grows a little below its cut-off, by an amount of the order of its
     // error there.
-    assert!(((found + added) / exact - 1.0).abs() < 0.1, "{found} + {added}, {exact}");
+    assert!(
+        ((found + added) / exact - 1.0).abs() < 0.1,
+        "resolved force {found} and lubrication {added} do not add up to the exact {exact}"
+    );
 }

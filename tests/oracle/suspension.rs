@@ -43,7 +43,11 @@ fn random_suspension_settles_as_its_far_field_and_as_richardson_and_zaki_say() {
         // stresslets, which slow the grains by about 8 % at this solid fraction (0.598 against 0.55 of
         // Hayakawa & Ichiki, Phys. Rev. E 51, R3815 (1995)); grains of 6 cells leak at this relaxation
         // time, which speeds them up by about as much (golden/sphere_arrays/study.csv).
-        assert!((found / far_field - 1.0).abs() < 0.08, "seed {seed}: {found}, {far_field}");
+        assert!(
+            (found / far_field - 1.0).abs() < 0.08,
+            "seed {seed}: settling velocity {found} of one grain's, by the far field of the \
+             same grains {far_field}"
+        );
         estimates.push((phi, found / far_field * infinite));
     }
     let phi = estimates[0].0;
@@ -51,5 +55,9 @@ fn random_suspension_settles_as_its_far_field_and_as_richardson_and_zaki_say() {
     let [upper, lower] = EXPONENTS.map(|n| (1.0 - phi).powf(n));
     println!("infinite suspension: {mean:.4}, Richardson-Zaki {lower:.4} to {upper:.4}");
     // Between the two exponents, and beyond them by what three placements scatter.
-    assert!(mean > 0.95 * lower && mean < 1.05 * upper, "{mean}: {lower} to {upper}");
+    assert!(
+        mean > 0.95 * lower && mean < 1.05 * upper,
+        "settling velocity of an infinite suspension {mean}, Richardson and Zaki's law gives \
+         {lower} to {upper}"
+    );
 }

@@ -139,7 +139,11 @@ fn collisions_commute_with_all_48_symmetries_of_the_cube() {
         let operator = CollisionOperator::new(&collision);
         for symmetry in Symmetry::all() {
             let off = asymmetry(&operator, symmetry);
-            assert!(off < ROUND_OFF, "{collision:?} {symmetry:?}: {off:e}");
+            assert!(
+                off < ROUND_OFF,
+                "{collision:?}: a collision turned by {symmetry:?} differs from the turned \
+                 collision by {off:e}"
+            );
         }
     }
 }
@@ -231,7 +235,11 @@ fn steps_commute_with_all_48_symmetries_whatever_the_faces_and_solids() {
                         &turned.populations()[place(cell)],
                     );
                     // Five steps' round-off; the exact solid fraction adds about 1e-13 of its own.
-                    assert!(off < 1e-12, "faces {case}, {collision:?}, {symmetry:?}: {off:e}");
+                    assert!(
+                        off < 1e-12,
+                        "faces {case}, {collision:?}: the flow turned by {symmetry:?} differs \
+                         from the turned flow by {off:e}"
+                    );
                 }
                 for (load, image) in plain.loads().iter().zip(turned.loads()) {
                     // Sums over some 40 cells.

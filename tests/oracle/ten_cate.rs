@@ -22,15 +22,30 @@ fn sphere_of_ten_cate_falls_as_measured_at_8_cells_per_diameter() {
     // Measured and digitised to about 2 % of the largest velocity; the drag of a sphere of 8 cells at
     // this relaxation time is within 1.5 % (golden/sphere_arrays/study.csv), the velocity at this
     // Reynolds number goes with a power of it less than one. Together below 3 %.
-    assert!(largest.abs() < 0.03, "{largest}");
-    assert!(velocity < 0.03, "{velocity}");
+    assert!(
+        largest.abs() < 0.03,
+        "largest velocity of the settling sphere is {largest} of the measured one off, 3 % is allowed"
+    );
+    assert!(
+        velocity < 0.03,
+        "velocities before the last diameter scatter about the measured ones by {velocity}, 3 % is allowed"
+    );
     // The first measured gaps are 0.1 to 0.2 diameters too large by themselves, and their time of
     // release is known to a frame of the camera or two (0.02 s is 0.15 diameters): an offset. Without
     // it what is left is the digitising, 0.05 diameters, and the 2 % of velocity over a fall of
     // seven diameters.
-    assert!(gap_offset.abs() < 0.35, "{gap_offset}");
-    assert!(gap < 0.15, "{gap}");
+    assert!(
+        gap_offset.abs() < 0.35,
+        "heights are {gap_offset} diameters off the measured ones on average: the release is at another time"
+    );
+    assert!(gap < 0.15, "heights scatter about the measured ones by {gap} diameters");
     // It brakes at the bottom as measured, later by no more than that offset takes.
-    assert!(braking < 0.05, "{braking}");
-    assert!(si_delay < 0.35 * experiment.si_diameter / experiment.si_largest, "{si_delay}");
+    assert!(
+        braking < 0.05,
+        "velocities near the bottom are {braking} of the largest off the measured ones"
+    );
+    assert!(
+        si_delay < 0.35 * experiment.si_diameter / experiment.si_largest,
+        "near the bottom the sphere comes {si_delay} s late, more than the release explains"
+    );
 }

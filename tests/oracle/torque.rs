@@ -78,7 +78,7 @@ fn torque_in_a_simple_cubic_array_converges_to_theory_and_opposes_the_spin() {
     println!("order {order:.3}");
     // The lag is of second order; the 0.012 cells of the wall are 0.5% at 16 cells per diameter, a
     // quarter of the error there, and make the order look higher by a quarter.
-    assert!((order - 2.0).abs() < 0.3, "order {order}");
+    assert!((order - 2.0).abs() < 0.3, "the error of the torque falls with order {order}, not 2");
 }
 
 #[test]
@@ -93,15 +93,24 @@ fn torque_is_the_same_about_each_axis_and_comes_with_no_force() {
             budget.run(&mut solver, 250);
             let Load { force, torque } = solver.loads()[0];
             // Sums of 200 cells of rounding errors of 1e-17 each, against torques of 1e-4 cells.
-            assert!(force.norm() < 1e-10 * torque.norm() / a, "{force:?}");
+            assert!(
+                force.norm() < 1e-10 * torque.norm() / a,
+                "a sphere that only spins feels the force {force:?}"
+            );
             let along = torque.dot(&axis);
-            assert!((torque - along * axis).norm() < 1e-10 * along.abs(), "{torque:?}");
+            assert!(
+                (torque - along * axis).norm() < 1e-10 * along.abs(),
+                "the torque {torque:?} on a sphere is not along its axis"
+            );
             along
         });
         println!("{x:e} {y:e} {z:e}");
         assert!(x < 0.0);
         // As above.
-        assert!((y / x - 1.0).abs() < 1e-10 && (z / x - 1.0).abs() < 1e-10, "{x:e} {y:e} {z:e}");
+        assert!(
+            (y / x - 1.0).abs() < 1e-10 && (z / x - 1.0).abs() < 1e-10,
+            "torques about x, y and z differ: {x:e} {y:e} {z:e}"
+        );
     }
 }
 
@@ -131,7 +140,15 @@ fn sphere_across_periodic_faces_feels_what_it_feels_in_the_middle_of_the_box() {
     ] {
         let load = loads(moved, &mut budget);
         // The same sums in another order, a hundred times; coverage to 1e-14 of a cell.
-        assert!((load.force - middle.force).norm() < 1e-11 * middle.force.norm(), "{moved:?}");
-        assert!((load.torque - middle.torque).norm() < 1e-11 * middle.torque.norm(), "{moved:?}");
+        assert!(
+            (load.force - middle.force).norm() < 1e-11 * middle.force.norm(),
+            "sphere across periodic faces, centre at {moved:?}: its force differs from that in \
+             the middle of the box"
+        );
+        assert!(
+            (load.torque - middle.torque).norm() < 1e-11 * middle.torque.norm(),
+            "sphere across periodic faces, centre at {moved:?}: its torque differs from that \
+             in the middle of the box"
+        );
     }
 }

@@ -71,7 +71,10 @@ fn two_settling_spheres_draft_kiss_and_tumble() {
     }
     println!("drafting: up to {drafted:.2} times as fast");
     // The wake makes the trailing sphere faster; to catch up from two diameters it must be clearly so.
-    assert!(drafted > 1.2, "{drafted}");
+    assert!(
+        drafted > 1.2,
+        "the sphere behind falls at {drafted} times the velocity of the one ahead: it is not drawn along"
+    );
     let kissed = kissed.expect("they must touch");
     assert!(kissed < 1.0, "they touch before they are a diameter apart sideways: {kissed}");
     let tumbled = tumbled.expect("the pair must turn over");

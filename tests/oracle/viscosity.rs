@@ -147,7 +147,10 @@ fn assert_known_error(what: &str, errors: &[(f64, f64); 3], c: f64) {
          order {order_of_rest:.3}"
     );
     // The next term turns the slopes by a few k²: up to 0.11 where k = 0.37 is the coarsest grid.
-    assert!((order - 2.0).abs() < 0.15, "{what}: order {order}");
+    assert!(
+        (order - 2.0).abs() < 0.15,
+        "{what}: the error of the viscosity falls with order {order}, not 2"
+    );
     assert!((order_of_rest - 4.0).abs() < 0.2, "{what}: order less C k² {order_of_rest}");
     // Of the error at the finest grid the closed form gets all but a share of a few k².
     let k2 = errors[2].0.powi(2);
@@ -187,7 +190,10 @@ fn shear_waves_along_all_axes_and_across_all_axes_decay_alike() {
             // Round-off: at each of 100 steps up to half an epsilon of the ten populations that
             // carry the momentum, together 1/3, on a wave of 1e-3 of which a quarter decays:
             // 100 (1e-16/3)/1e-3/0.25 = 1e-11.
-            assert!((nu / viscosities[0] - 1.0).abs() < 1e-11, "{name}: {viscosities:?}");
+            assert!(
+                (nu / viscosities[0] - 1.0).abs() < 1e-11,
+                "{name}: viscosities {viscosities:?} of equal waves along different axes differ"
+            );
         }
     }
 }
@@ -231,7 +237,11 @@ fn a_stream_along_the_wave_lowers_viscosity_by_three_times_its_square_and_carrie
                 let k2 = wave.k.norm_squared();
                 let error = speed / v - 1.0 - dispersion * k2;
                 // The next terms are V² k² and k⁴, times coefficients below 1/6 here.
-                assert!(error.abs() < (v * v + k2) * k2 / 6.0, "{name}, tau {tau}, V {v}: {speed}");
+                assert!(
+                    error.abs() < (v * v + k2) * k2 / 6.0,
+                    "{name}, tau {tau}, carried at V = {v}: the wave moves at {speed}, further \
+                     off the dispersion of the scheme than its next terms allow"
+                );
                 (wave.k.norm(), nu - (1.0 - 3.0 * v * v))
             });
             // Without the 3 V² the error would not fall at all. V² k² turns the slope by 0.01.
@@ -261,7 +271,10 @@ fn a_stream_across_the_wave_leaves_its_decay_alone() {
             // the density follows u² with an error of order V² k²: a tenth of that is allowed.
             // Round-off as above, for 100 steps in which a sixteenth decays.
             let bound = if name == "d'Humieres" && stream.x > 0.0 { 0.001 * k2 } else { 1e-10 };
-            assert!(change.abs() < bound, "{name}, stream {stream:?}: {change:e}");
+            assert!(
+                change.abs() < bound,
+                "{name}, carried by {stream:?}: its viscosity changes by {change:e}"
+            );
         }
     }
 }

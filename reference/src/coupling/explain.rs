@@ -59,6 +59,7 @@ impl FreeGrains {
         let gain = match self.settings().gravity? {
             Gravity::Reduced { acceleration } => excess / total * acceleration,
             Gravity::OnFluidToo { acceleration } => acceleration,
+            Gravity::Balanced { .. } => return None,
         };
         (0..3).filter(|&axis| self.domain().is_periodic(axis)).find_map(|axis| {
             let free_fall = gain[axis] * steps as f64;

@@ -2,11 +2,15 @@
 
 use crate::domain::{Domain, Face};
 use crate::grains::grain::{Grain, sphere_volume};
+use crate::grains::hold;
 use crate::grains::plane::Plane;
 use crate::grains::setup::{GrainError, GrainSetup};
 use crate::grains::system::{GrainState, GrainSystem};
 use crate::lattice::Vec3;
 use crate::solids::{Load, Shape, Solid};
+
+/// Fastest grain, cells per time step: what the guard of the fluid allows the fluid.
+const FASTEST: f64 = 0.5;
 
 /// What becomes of the inertia of the fluid inside a grain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,6 +31,14 @@ pub enum Gravity {
         /// Acceleration, lattice units.
         acceleration: Vec3,
     },
+    /// By reduced pressure, and the net weight of all grains is carried by a uniform body force
+    /// ([`super::balancing_force`], which the set-up of the fluid must have): for domains that are periodic
+    /// along gravity. Whoever drives the grains adds what the body force lacks in their cells to their
+    /// loads ([`super::with_displaced`]).
+    Balanced {
+        /// Acceleration, lattice units.
+        acceleration: Vec3,
+    },
     /// On fluid and grains: the fluid carries the body force `rho_f g` (which the set-up of the fluid
     /// must have), a grain `m_s g`. The PS term displaces the sum of `B`, not `V`, so the buoyancy is
     /// too small on coarse grids.
@@ -34,6 +46,17 @@ pub enum Gravity {
         /// Acceleration, lattice units.
         acceleration: Vec3,
     },
+}
+
+impl Gravity {
+    /// The acceleration of either form.
+    pub fn acceleration(&self) -> Vec3 {
+        match *self {
+            Gravity::Reduced { acceleration }
+            | Gravity::Balanced { acceleration }
+            | Gravity::OnFluidToo { acceleration } => acceleration,
+        }
+    }
 }
 
 /// How fluid and grains act on each other.
@@ -112,13 +135,37 @@ impl FreeGrains {
     }
 
     /// Moves the grains by one step under `loads`, the fluid's load on each during its last step.
-    /// Returns the number of sub-steps. Errors if the motion breaks down.
+    /// Returns the number of sub-steps. Errors if the motion breaks down or a contact does not hold.
     pub fn step(&mut self, loads: &[Load]) -> Result<u32, GrainError> {
         let outside = self.outside_loads(loads);
         for ((last, grain), load) in self.last.iter_mut().zip(self.grains.grains()).zip(loads) {
             *last = LastStep { velocity: grain.velocity, spin: grain.spin, load: *load };
         }
-        self.grains.step(1.0, &outside)
+        let substeps = self.grains.step(1.0, &outside)?;
+        if let Some(sunk) = hold::deepest(&self.grains) {
+            return Err(sunk.into());
+        }
+        self.check_thrown(&outside)?;
+        Ok(substeps)
+    }
+
+    /// Errors if a contact has thrown a grain: it is past [`FASTEST`], and got more of its speed in the last
+    /// step from contacts than from `outside`.
+    fn check_thrown(&self, outside: &[Load]) -> Result<(), GrainError> {
+        for (number, grain) in self.grains.grains().iter().enumerate() {
+            let speed = grain.velocity.norm();
+            if grain.held || speed <= FASTEST {
+                continue;
+            }
+            // v - v_(n-1) = F/m + what contacts have given
+            let pushed = outside[number].force / grain.mass;
+            let gained = (grain.velocity - self.last[number].velocity - pushed).norm();
+            if gained > pushed.norm() {
+                let limit = FASTEST;
+                return Err(GrainError::Thrown { grain: number, speed, gained, limit });
+            }
+        }
+        Ok(())
     }
 
     /// What acts on each grain besides contacts in the coming step: the fluid's load, the inertia of
@@ -194,7 +241,7 @@ impl FreeGrains {
         }
         match self.settings.gravity {
             // + (m_s - m_f) g
-            Some(Gravity::Reduced { acceleration }) => {
+            Some(Gravity::Reduced { acceleration } | Gravity::Balanced { acceleration }) => {
                 total.force += (grain.mass - fluid_mass) * acceleration;
             }
             // + m_s g; the fluid's body force provides the buoyancy
@@ -209,12 +256,7 @@ impl FreeGrains {
     fn mirrored(&self, grain: &Grain, load: &Load) -> Load {
         let mut load = *load;
         for axis in 0..3 {
-            let planes = [0.0, self.domain.cells()[axis] as f64];
-            let on_mirror = (0..2).any(|side| {
-                self.domain.faces().axis(axis)[side] == Face::FreeSlip
-                    && grain.position[axis] == planes[side]
-            });
-            if on_mirror {
+            if mirrors_through(&self.domain, grain, axis) {
                 // F + F': the part along the normal cancels; T is axial: the part across it does
                 load.force *= 2.0;
                 load.force[axis] = 0.0;
@@ -224,6 +266,13 @@ impl FreeGrains {
         }
         load
     }
+}
+
+/// Whether a mirror plane across `axis` goes through the centre of a grain.
+pub(super) fn mirrors_through(domain: &Domain, grain: &Grain, axis: usize) -> bool {
+    let planes = [0.0, domain.cells()[axis] as f64];
+    let faces = domain.faces().axis(axis);
+    (0..2).any(|side| faces[side] == Face::FreeSlip && grain.position[axis] == planes[side])
 }
 
 impl LastStep {

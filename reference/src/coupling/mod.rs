@@ -18,7 +18,7 @@
 //! the grain would pay for setting `m_f` in motion, which [`InternalFluid::Lagged`] gives back only
 //! for changes of its velocity from then on.
 //!
-//! **What is conserved.** Without gravity, in a periodic box, to round-off:
+//! **What is conserved.** Without gravity or with [`Gravity::Balanced`], in a periodic box, to round-off:
 //!
 //! ```text
 //!   Q = Σ j + Σ_s (m_s v_n - m_f v_(n-1)) + 1/2 Σ_s F_(n-1)
@@ -30,6 +30,7 @@
 //! absent, without averaging that with `F`. At the start, with the fluid at rest, `Q` is the momentum of
 //! the grains alone, `Σ_s m_s v_0`.
 
+mod balance;
 mod explain;
 mod free_grains;
 
@@ -42,8 +43,10 @@ use crate::lattice::{Populations, Vec3, momentum};
 use crate::setup::{Setup, SetupError};
 use crate::solids::Load;
 use crate::solver::{Memory, Solver};
+use std::borrow::Cow;
 use thiserror::Error;
 
+pub use balance::{balancing_force, with_displaced};
 pub use free_grains::{CouplingSettings, FreeGrains, Gravity, InternalFluid, LastStep};
 
 /// A coupled set-up that cannot be run.
@@ -113,7 +116,7 @@ impl CoupledSolver {
     /// One step of fluid and grains. Errors when either is broken.
     pub fn step(&mut self) -> Result<(), CoupledStop> {
         self.fluid.advance_fluid().map_err(|stopped| self.grains.explain(stopped))?;
-        self.grains.step(self.fluid.loads())?;
+        self.grains.step(&loads(&self.fluid, self.grains.settings()))?;
         let solids = self.grains.solids();
         self.fluid.place_solids(|number, solid| {
             solid.centre = solids[number].centre;
@@ -135,7 +138,7 @@ impl CoupledSolver {
 
     /// What acts on each grain besides contacts in the coming step, the fluid's last load included.
     pub fn outside_loads(&self) -> Vec<Load> {
-        self.grains.outside_loads(self.fluid.loads())
+        self.grains.outside_loads(&loads(&self.fluid, self.grains.settings()))
     }
 
     /// The fluid.
@@ -171,6 +174,16 @@ impl CoupledSolver {
 
     fn fluid_momentum(&self) -> Vec3 {
         self.fluid.populations().iter().map(momentum).sum()
+    }
+}
+
+/// The fluid's loads of the last step, with what a balancing body force lacks in the grains' cells.
+fn loads<'a>(fluid: &'a Solver, settings: &CouplingSettings) -> Cow<'a, [Load]> {
+    match (settings.gravity, fluid.setup().body_force) {
+        (Some(Gravity::Balanced { .. }), Some(g)) => {
+            with_displaced(fluid.loads(), &fluid.displaced(), g).into()
+        }
+        _ => fluid.loads().into(),
     }
 }
 

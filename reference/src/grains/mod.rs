@@ -12,6 +12,7 @@
 //! | `m dv/dt = F` | velocity Verlet, the length of a sub-step | [`motion`] |
 //! | | the box, what a set of grains is set up with, and the checks | [`setup`] |
 //! | | order of operations in a sub-step, checkpoints | [`system`] |
+//! | | whether contacts hold | [`hold`] |
 //! | | beds and suspensions to start from | [`packing`] |
 //!
 //! Units: any consistent ones (SI, or the lattice units of the fluid): nothing here has a scale of
@@ -19,6 +20,7 @@
 
 pub mod contact;
 pub mod grain;
+pub mod hold;
 pub mod interaction;
 pub mod law;
 pub mod lubrication;

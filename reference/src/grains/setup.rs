@@ -1,6 +1,7 @@
 //! What a set of grains is set up with, and the checks that it makes sense.
 
 use crate::grains::grain::Grain;
+use crate::grains::hold::Sunk;
 use crate::grains::law::{ContactLaw, LawError};
 use crate::grains::lubrication::{Lubrication, LubricationError};
 use crate::grains::motion::{SubstepError, Substeps};
@@ -109,6 +110,24 @@ pub enum GrainError {
     /// The sub-step.
     #[error(transparent)]
     Substep(#[from] SubstepError),
+    /// A contact that does not hold.
+    #[error(transparent)]
+    Sunk(#[from] Sunk),
+    /// A contact that has thrown a grain.
+    #[error(
+        "grain {grain} moves at {speed} lengths per step, past the limit of {limit}, and contacts have given it \
+         {gained} of that in the last step"
+    )]
+    Thrown {
+        /// Number of the grain.
+        grain: usize,
+        /// Its speed, cells per time step.
+        speed: f64,
+        /// What contacts have given it in the last step, cells per time step.
+        gained: f64,
+        /// The limit, cells per time step.
+        limit: f64,
+    },
     /// The motion has broken down.
     #[error(
         "grain {grain} is at {position:?}: its motion has broken down; look for two grains at the \

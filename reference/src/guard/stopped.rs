@@ -181,7 +181,7 @@ impl fmt::Display for Stopped {
                 out,
                 "grains and fluid fall together, faster and faster ({speed:.3} on the mean): the box \
                  is periodic along gravity ({axis}), and nothing holds them back, whatever the time \
-                 step. Balance the weight, put walls at the ends of {axis} or fix a grain"
+                 step. Balance the weight (`gravity.balance`), put walls at the ends of {axis} or fix a grain"
             ),
             Cause::BodyForce { acceleration } => write!(
                 out,

@@ -1,30 +1,152 @@
-//! Warnings of grids that are too coarse for the grains.
+//! Warnings of grids and relaxation times with which a flow comes out wrong, by the same prediction as
+//! `psmrt plan` makes.
 
 use super::warning;
-use crate::estimate::{Warning, diameters};
-use crate::scene::Scene;
+use crate::estimate::Warning;
+use crate::plan::facts::{Facts, Limit};
+use crate::plan::options::{Speed, Way, as_it_is, most_accurate, ways, why_none};
+use crate::plan::predict::{Knobs, Outside, Predicted, percent, predict};
+use crate::scene::{EngineKind, Scene};
+use crate::tradeoff::knobs::CollisionKnob;
+use crate::tradeoff::model::Models;
+use crate::tradeoff::trial::collision_of;
+
+/// A predicted error above this is warned of. Laws of the drag of beds differ by as much from each other, so
+/// that a larger one spoils what one can compare with; and of the runs that none beats in error and cost
+/// (golden/tradeoff/front.csv) those below it are affordable.
+pub(crate) const TOO_LARGE: f64 = 0.1;
+
+/// A scene and what is predicted of it.
+pub(crate) struct Outlook {
+    facts: Facts,
+    models: &'static Models,
+    collision: CollisionKnob,
+    kernel: bool,
+    /// What is predicted, or why nothing is.
+    pub found: Result<Predicted, Outside>,
+}
+
+/// What is predicted of a scene; `None` if nothing in it limits the accuracy in a way that is known.
+pub(crate) fn outlook(scene: &Scene) -> Option<Outlook> {
+    let facts = Facts::of(scene).ok()?.ok()?;
+    let models = Models::committed().ok()?;
+    let collision = collision_of(&scene.setup.collision)?;
+    let kernel = scene.engine == EngineKind::Wgpu;
+    let knobs = Knobs {
+        resolution: facts.limit.cells(),
+        tau: facts.tau,
+        collision,
+        single: kernel,
+        velocity: facts.si_velocity.map(|velocity| velocity / scene.units.si_velocity()),
+    };
+    let found = predict(&facts, models, &knobs);
+    Some(Outlook { facts, models, collision, kernel, found })
+}
+
+/// What the error is one of.
+pub(crate) fn subject(scene: &Scene) -> &'static str {
+    match (settles(scene), scene.setup.body_force) {
+        (true, _) => "the settling velocity",
+        (false, Some(_)) => "the flow that the force drives",
+        (false, None) => "the flow that a given force would drive",
+    }
+}
+
+/// Whether free grains settle or rise by gravity.
+fn settles(scene: &Scene) -> bool {
+    scene.free.as_ref().is_some_and(|part| part.settings.gravity.is_some())
+}
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
-    let tau = scene.setup.collision.tau();
-    let Some((low, _)) = diameters(scene) else { return Vec::new() };
-    // Figures: golden/sphere_arrays/study.csv, SC at 0.065, MRT with d'Humieres' rates, weight NT.
-    if low < 8.0 {
-        let reason = format!(
-            "a grain is {low:.1} cells across: its drag is too small by tens of percent, the more the \
-             larger tau is (in a dilute array at 4 cells by 17 % at tau 0.6, 25 % at 0.8, 32 % at 1, 44 % \
-             at 1.5; at 8 cells by 3, 6, 9 and 14 %)"
-        );
-        return vec![warning(
-            reason,
-            "use 8 cells or more (a smaller `domain.dx`), and tau of 0.6 to 0.8",
-        )];
+    let Some(outlook) = outlook(scene) else { return Vec::new() };
+    let reason = match &outlook.found {
+        Ok(found) if found.error.abs() > TOO_LARGE => {
+            format!("{}: {}", predicted(scene, found), because(&outlook.facts))
+        }
+        Ok(_) => return Vec::new(),
+        Err(Outside { why, nearest: Some(near), may_be_worse }) => {
+            if !may_be_worse && near.error.abs() <= TOO_LARGE {
+                return Vec::new();
+            }
+            format!(
+                "the error cannot be predicted: {why}; at the nearest point of the evidence {}",
+                predicted(scene, near)
+            )
+        }
+        // Between walls and where no run has the method nothing is known to be wrong.
+        Err(Outside { nearest: None, .. }) => return Vec::new(),
+    };
+    vec![warning(reason, remedy(&outlook))]
+}
+
+/// A prediction in words: the flow, or what a given flow does to the grains.
+fn predicted(scene: &Scene, found: &Predicted) -> String {
+    let is_fast = found.error > 0.0;
+    let sizes = |value: fn(f64) -> f64| {
+        let [low, high] = found.band.map(value);
+        let (low, high) = if is_fast { (low, high) } else { (-high, -low) };
+        format!("{} ({} to {})", percent(value(found.error).abs()), percent(low), percent(high))
+    };
+    let too = if is_fast { "fast" } else { "slow" };
+    match (settles(scene), scene.setup.body_force) {
+        (true, _) => format!("grains are predicted to settle {} too {too}", sizes(|e| e)),
+        (false, Some(_)) => format!("the flow is predicted to be {} too {too}", sizes(|e| e)),
+        (false, None) => {
+            // Drag goes with force over velocity.
+            let too = if is_fast { "small" } else { "large" };
+            format!("the drag is predicted to be {} too {too}", sizes(|e| e / (1.0 + e)))
+        }
     }
-    if low < 16.0 && tau >= 1.5 {
-        let reason = format!(
-            "tau = {tau:.2} with grains of fewer than 16 cells: their drag is too small (in a dilute array \
-             at 8 cells by 14 % at tau 1.5 and 20 % at 2, but 6 % at 0.8)"
-        );
-        return vec![warning(reason, "use a shorter time step (a smaller `time.tau`)")];
+}
+
+/// What makes the error as large as it is.
+fn because(facts: &Facts) -> String {
+    let Facts { tau, .. } = facts;
+    match &facts.limit {
+        Limit::Grains { cells, drag, because } => format!(
+            "{cells:.1} cells across the smallest grain, tau = {tau:.4}, and a drag of {drag:.2} times Stokes', \
+             that of {because}"
+        ),
+        Limit::Plates { cells } => format!("{cells} cells from wall to wall, tau = {tau:.4}"),
+        Limit::Duct { cells, .. } => format!("{cells} cells across the duct, tau = {tau:.4}"),
     }
-    Vec::new()
+}
+
+/// The cheapest way that is not warned of, with the scene's collision; else the most accurate.
+fn remedy(outlook: &Outlook) -> String {
+    let Outlook { facts, models, collision, kernel, .. } = outlook;
+    let engine = if *kernel { "wgpu" } else { "reference" };
+    let speed = Speed { engine: engine.to_owned(), mrt: 1.0, srt: 1.0 };
+    let all = ways(facts, models, std::slice::from_ref(&speed));
+    let own: Vec<Way> = all.into_iter().filter(|way| way.collision == *collision).collect();
+    let good = own.iter().filter(|way| way.error <= TOO_LARGE);
+    let good = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
+    let Some(best) = good.or(most_accurate(&own, f64::INFINITY)) else {
+        return why_none(facts, models);
+    };
+    let now = as_it_is(facts, models, *collision, &speed);
+    if now.as_ref().is_ok_and(|now| best.error >= now.error) {
+        return "no grid that fills the box and no relaxation time of the evidence has a smaller error: choose a \
+                box whose sides share a larger divisor"
+            .to_owned();
+    }
+    let [nx, ny, nz] = best.cells;
+    let mut changes = Vec::new();
+    if best.cells != facts.cells {
+        changes.push(format!("`domain.dx` = {:e} ({nx} x {ny} x {nz} cells)", best.si_dx));
+    }
+    if (best.tau - facts.tau).abs() > 1e-9 {
+        changes.push(format!("`time.tau` = {}", best.tau));
+    }
+    let work = now.map_or_else(
+        |_| String::new(),
+        |now| format!(" for {:.1} times the work", best.seconds / now.seconds),
+    );
+    format!(
+        "{} makes it {} ({} to {}){work}; `psmrt plan` finds the cheapest way to an error",
+        changes.join(" with "),
+        percent(best.error),
+        percent(best.band[0]),
+        percent(best.band[1])
+    )
 }

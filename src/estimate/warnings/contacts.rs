@@ -1,43 +1,62 @@
-//! Warnings of contacts that are too soft, too short or too dear.
+//! Warnings of contacts that are too soft or too dear.
+
+use psmrt_reference::grains::hold::DEEPEST;
 
 use super::warning;
 use crate::estimate::Warning;
-use crate::estimate::grains::{free, overlaps};
-use crate::scene::Scene;
+use crate::estimate::grains::burden;
+use crate::scene::check::hardness::{ONE_ON_ONE, Overlaps};
+use crate::scene::{FreePart, Scene};
 
-/// A grain pressed in by more than this share of its diameter is no hard sphere any more.
-const DEEP: f64 = 0.01;
-
-/// Contacts shorter than so many time steps are over before the fluid takes part.
-const BRIEF: f64 = 4.0;
+/// An impact that goes deeper, in diameters, is soft.
+const DEEP_IMPACT: f64 = 0.1;
 
 /// More sub-steps than this in a time step begin to cost as much as the fluid.
 const MANY: u32 = 100;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let Some(part) = &scene.free else { return Vec::new() };
-    let mut warnings = Vec::new();
-    let [_, under] = overlaps(scene, part);
-    if under > DEEP {
-        let reason = format!("weight presses grains into each other by {under:.1e} of a diameter");
-        let remedy = "make contacts shorter (contact.duration) or stiffer (contact.stiffness)";
-        warnings.push(warning(reason, remedy));
-    }
-    let pair = 0.5 * free(part).map(|grain| grain.mass).fold(f64::INFINITY, f64::min);
-    let duration = part.setup.law.duration(pair);
-    if duration < BRIEF {
-        let reason = format!(
-            "contacts last {duration:.1} time steps: the load of the fluid is held during a step, and it \
-             hardly takes part"
-        );
-        warnings.push(warning(reason, "make contacts last 10 time steps (contact.duration)"));
-    }
+    let mut warnings: Vec<Warning> = softness(scene, part).into_iter().collect();
     if let Some(count) = part.substeps().ok().filter(|&count| count > MANY) {
         let reason = format!(
-            "the grains make {count} sub-steps in a time step: they cost more than the fluid"
+            "the grains make {count} sub-steps in a time step: they may cost more than the fluid"
         );
-        let remedy = "make contacts last longer (contact.duration), 10 time steps are usual";
+        let remedy = "a shorter time step takes fewer each, longer contacts (contact.duration) too";
         warnings.push(warning(reason, remedy));
     }
     warnings
+}
+
+/// What happens to grains whose contacts are too soft, and what to do.
+fn softness(scene: &Scene, part: &FreePart) -> Option<Warning> {
+    let burden = burden(scene, part);
+    let Overlaps { in_bed, one_on_one, in_impact } = burden.overlaps(part.setup.law.stiffness);
+    let at_rest = in_bed.max(one_on_one);
+    // Of a diameter here, of a radius there.
+    let lost = 0.5 * DEEPEST;
+    let reason = if at_rest > lost {
+        format!(
+            "weight presses grains into each other by {at_rest:.1e} of a diameter: contacts do not hold them, and the \
+             run stops when a grain is {lost} of its diameter deep in another or in a face"
+        )
+    } else if at_rest > 1.01 * ONE_ON_ONE {
+        format!("weight presses grains into each other by {at_rest:.1e} of a diameter")
+    } else if in_impact > lost {
+        format!(
+            "a grain that falls on the smallest one overlaps it by {in_impact:.1e} of its diameter; the run stops at \
+             {lost}"
+        )
+    } else if in_impact > DEEP_IMPACT {
+        format!(
+            "a grain that falls on the smallest one overlaps it by {in_impact:.1e} of its diameter"
+        )
+    } else {
+        return None;
+    };
+    let remedy = format!(
+        "leave `stiffness` and `duration` of [contact] out to have them chosen, or use contact.stiffness = {:.2e} \
+         (N/m) or more",
+        1.01 * burden.stiffness() * scene.units.si_stiffness()
+    );
+    Some(warning(reason, remedy))
 }

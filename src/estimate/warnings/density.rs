@@ -1,28 +1,62 @@
 //! Warnings of grains too light for the fluid inside them.
 
-use psmrt_reference::grains::grain::sphere_volume;
+use psmrt_reference::coupling::InternalFluid;
 
 use super::warning;
 use crate::estimate::Warning;
-use crate::estimate::grains::free;
+use crate::plan::facts::lightest;
 use crate::scene::Scene;
-
-/// Smallest density ratio that was right with the inertia of the fluid inside given back a step later, and
-/// kept, at tau up to 1; the next smaller that was tried, 0.5, broke at tau of 0.6 and more either way:
-/// golden/stability/movers.csv.
-const LIGHT: f64 = 0.8;
+use crate::stability::limits;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
-    let Some(part) = &scene.free else { return Vec::new() };
-    let lightest = free(part)
-        .map(|grain| grain.mass / (part.settings.fluid_density * sphere_volume(grain.radius)))
-        .fold(f64::INFINITY, f64::min);
-    if lightest < LIGHT {
-        let reason = format!(
-            "a grain of {lightest:.2} times the density of the fluid: grains lighter than {LIGHT} times were driven \
-             by the inertia of the fluid inside until the run broke (golden/stability/movers.csv)"
-        );
-        return vec![warning(reason, "use denser grains: psmrt has no scheme for light ones")];
+    let Some((ratio, inside)) = lightest(scene) else { return Vec::new() };
+    let tau = scene.setup.collision.tau();
+    let limit = limits::lightest(inside, tau);
+    if limit.is_some_and(|limit| ratio >= limit) {
+        return Vec::new();
     }
-    Vec::new()
+    let known = match limit {
+        Some(limit) => format!("at tau = {tau:.4} grains were right down to {limit} times"),
+        None => format!("at tau = {tau:.4} nothing is known"),
+    };
+    let reason = format!(
+        "a free grain has {ratio:.3} times the density of the fluid: {known} with internal_fluid = \"{}\" \
+         (golden/stability/movers.csv); lighter ones are driven by the inertia of the fluid inside until the run \
+         breaks, and smaller time steps do not help",
+        word(inside)
+    );
+    vec![warning(reason, remedy(ratio, tau))]
+}
+
+/// The other way with the fluid inside, or another relaxation time, if either was right.
+fn remedy(ratio: f64, tau: f64) -> String {
+    let both = [InternalFluid::Lagged, InternalFluid::Kept];
+    let is_right = |inside, tau| limits::lightest(inside, tau).is_some_and(|limit| ratio >= limit);
+    if let Some(inside) = both.into_iter().find(|&inside| is_right(inside, tau)) {
+        return format!(
+            "use `coupling.internal_fluid = \"{}\"`, with which it was right",
+            word(inside)
+        );
+    }
+    let taus = limits::taus_of_movers();
+    let found = both.into_iter().find_map(|inside| {
+        let nearest = taus.iter().copied().filter(|&tau| is_right(inside, tau));
+        let nearest = nearest.min_by(|a, b| (a - tau).abs().total_cmp(&(b - tau).abs()))?;
+        Some((inside, nearest))
+    });
+    match found {
+        Some((inside, tau)) => format!(
+            "use `time.tau` = {tau} with `coupling.internal_fluid = \"{}\"`, with which it was right",
+            word(inside)
+        ),
+        None => "use denser grains, or hold it fixed: psmrt has no scheme for grains as light"
+            .to_owned(),
+    }
+}
+
+fn word(inside: InternalFluid) -> &'static str {
+    match inside {
+        InternalFluid::Lagged => "lagged",
+        InternalFluid::Kept => "kept",
+    }
 }

@@ -12,18 +12,6 @@ const HIGH_MACH: f64 = 0.17;
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let tau = scene.setup.collision.tau();
-    if tau < 0.52 {
-        warnings.push(warning(
-            format!("tau = {tau:.4} is close to 0.5: small structures hardly decay"),
-            "use a finer grid, a longer time step, or MRT with d'Humieres' rates",
-        ));
-    }
-    if tau > 2.0 {
-        warnings.push(warning(
-            format!("tau = {tau:.3} is large: walls and grains are placed less exactly"),
-            "use a shorter time step (a smaller `time.tau`)",
-        ));
-    }
     if let Some((si_speed, source)) = si_velocity(scene) {
         let speed = si_speed / scene.units.si_velocity();
         if speed * 3.0_f64.sqrt() > HIGH_MACH {

@@ -4,20 +4,22 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
 
 use super::warning;
+use crate::estimate::bed::{DENSE, bed};
 use crate::estimate::spheres::solid_fraction;
 use crate::estimate::{Warning, diameters, si_velocity};
 use crate::scene::Scene;
 use crate::stability::Model;
 use crate::stability::limits::Measured;
 
-/// Grains that fill more than this part of the box make a bed: what flows between them is several times as
-/// fast as the superficial velocity, and the ordered bed says more than the shear layer.
-const DENSE: f64 = 0.3;
-
 /// The flow of the maps that a scene is held to, in words too, and how fast it is: cells per step, and where
 /// that comes from. `None` if no velocity is known.
 pub(crate) fn mapped(scene: &Scene) -> Option<(Measured, &'static str, f64, String)> {
-    let fraction = solid_fraction(scene);
+    // Grains that fill more than a part of the box make a bed: what flows between them is several times as
+    // fast as the superficial velocity, and the ordered bed says more than the shear layer.
+    let fraction = match bed(scene).filter(|_| scene.free.is_none()) {
+        Some(bed) => bed.fraction,
+        None => solid_fraction(scene),
+    };
     let phase = scene.setup.solid_phase.as_ref();
     match phase.filter(|_| fraction >= DENSE) {
         Some(phase) => {

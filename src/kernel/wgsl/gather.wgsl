@@ -1,4 +1,5 @@
-// Force and torque on each solid during the last step.
+// Force and torque on each solid during the last step, and Σ B_s, the volume in which a body force does not
+// act on the fluid.
 //
 // Both solid operators change the momentum of a cell by B_s (ρ u_s - j), with the momentum j before the
 // collision: that is what the solid loses. A workgroup adds up the touches of one solid (the parts of
@@ -10,13 +11,14 @@
 @group(0) @binding(2) var<storage, read> solids: array<Solid>;
 // Touches of each solid
 @group(0) @binding(3) var<storage, read> counts: array<u32>;
-// Force and torque of each solid
+// (force, Σ B_s) and (torque, 0) of each solid
 @group(0) @binding(5) var<storage, read_write> loads: array<vec4<f32>>;
 // The record of the cell of each touch
 @group(0) @binding(6) var<storage, read> links: array<u32>;
 
 var<workgroup> force: array<vec3<f32>, LANES>;
 var<workgroup> torque: array<vec3<f32>, LANES>;
+var<workgroup> volume: array<f32, LANES>;
 
 @compute @workgroup_size(LANES)
 fn gather(
@@ -27,6 +29,7 @@ fn gather(
     let is_solid = solid < SOLIDS;
     var f = vec3<f32>(0.0);
     var t = vec3<f32>(0.0);
+    var v = f32(0.0);
     if (is_solid) {
         let motion = solids[solid];
         for (var i = lane; i < counts[solid]; i += LANES) {
@@ -40,20 +43,23 @@ fn gather(
             let push = weights[number] * (moment.xyz - (1.0 + moment.w) * u);
             f += push;
             t += cross(arm, push);
+            v += weights[number];
         }
     }
     force[lane] = f;
     torque[lane] = t;
+    volume[lane] = v;
     workgroupBarrier();
     for (var half = LANES / 2u; half > 0u; half /= 2u) {
         if (lane < half) {
             force[lane] += force[lane + half];
             torque[lane] += torque[lane + half];
+            volume[lane] += volume[lane + half];
         }
         workgroupBarrier();
     }
     if (is_solid && lane == 0u) {
-        loads[2u * solid] = vec4<f32>(force[0], 0.0);
+        loads[2u * solid] = vec4<f32>(force[0], volume[0]);
         loads[2u * solid + 1u] = vec4<f32>(torque[0], 0.0);
     }
 }

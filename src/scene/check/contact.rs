@@ -4,15 +4,25 @@ use psmrt_reference::grains::law::{ContactLaw, Friction, LawError, Rolling};
 use psmrt_reference::grains::motion::Substeps;
 
 use super::Trouble;
+use super::effort::MOST_SUBSTEPS;
 use super::numbers::{absent, positive};
 use crate::scene::format_free::ContactSection;
 use crate::scene::units::Units;
 
-/// Contact duration in time steps where a scene says nothing. The load of the fluid is held during a
-/// step and the inertia of the fluid inside comes a step late: a contact must last several steps for
-/// the fluid to take part in it, and short ones cost sub-steps. Kempe & Fröhlich, J. Fluid Mech. 709,
-/// 445 (2012), stretch contacts to ten steps for the same reason.
+/// Longest contact duration in time steps where a scene says nothing. The load of the fluid is held during a
+/// step and the inertia of the fluid inside comes a step late: in a contact of several steps the fluid takes
+/// part, and short ones cost sub-steps. Kempe & Fröhlich, J. Fluid Mech. 709, 445 (2012), stretch contacts
+/// to ten steps for the same reason. Where weight or impacts would press grains too deep into each other
+/// (`hardness.rs`), contacts are shorter: down to 0.03 steps they survive and end at the right overlap
+/// (golden/stability/contact.csv).
 pub const DEFAULT_DURATION: f64 = 10.0;
+
+/// Longest contact duration that is accepted, time steps: longer ones hold nothing.
+const LONGEST_DURATION: f64 = 1e6;
+
+/// Tangential over normal stiffness that is accepted: far beyond any material on both sides (2/3 to 1 for
+/// elastic spheres, by Mindlin), and short of what round-off makes of it.
+const TANGENTIAL_RATIOS: std::ops::RangeInclusive<f64> = 0.001..=10.0;
 
 /// Restitution where a scene says nothing. Grains that settle at Stokes numbers below 10 do not
 /// rebound in a liquid, whatever they do in vacuum (Gondret, Lance & Petit, Phys. Fluids 14, 643
@@ -34,12 +44,25 @@ pub(super) struct Laws {
     pub walls: ContactLaw,
 }
 
-/// The laws, for free grains of which the lightest has the mass `lightest`.
-pub(super) fn laws(
-    section: &ContactSection,
-    lightest: f64,
-    units: &Units,
-) -> Result<Laws, Trouble> {
+/// Beyond all stiffness and damping that sub-steps could resolve, and far from overflow.
+const HUGE: f64 = 1e200;
+
+/// A value that does not overflow in what is made of it: `effort.rs` refuses it then.
+fn capped(value: f64) -> f64 {
+    if value > HUGE { HUGE } else { value }
+}
+
+/// What the laws are made for, lattice units.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bodies {
+    /// Mass of the lightest free grain.
+    pub lightest: f64,
+    /// Stiffness that weight and impacts ask for; 0 without gravity.
+    pub weight_asks: f64,
+}
+
+/// Errors unless the keys of the section go together.
+pub(super) fn consistent(section: &ContactSection) -> Result<(), Trouble> {
     let key = |name: &str| format!("contact.{name}");
     if section.stiffness.is_none() {
         absent(&key("damping"), section.damping.as_ref(), "`stiffness`")?;
@@ -49,34 +72,68 @@ pub(super) fn laws(
     if section.friction == Some(0.0) {
         absent(&key("tangential_ratio"), section.tangential_ratio.as_ref(), "`friction` above 0")?;
     }
+    match section.tangential_ratio {
+        Some(ratio) if !TANGENTIAL_RATIOS.contains(&ratio) => {
+            let (low, high) = (TANGENTIAL_RATIOS.start(), TANGENTIAL_RATIOS.end());
+            let problem = format!("it must be positive, {low} to {high}");
+            Err(Trouble::new(key("tangential_ratio"), problem, "2/7 = 0.2857 is usual"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The laws of a section whose keys go together.
+pub(super) fn laws(
+    section: &ContactSection,
+    bodies: &Bodies,
+    units: &Units,
+) -> Result<Laws, Trouble> {
+    let key = |name: &str| format!("contact.{name}");
     // Two of the lightest have the reduced mass m/2, one against a wall has m.
-    let pair = 0.5 * lightest;
+    let pair = 0.5 * bodies.lightest;
     let restitution = section.restitution.unwrap_or(DEFAULT_RESTITUTION);
+    let of_duration = |duration: f64| {
+        ContactLaw::from_duration_and_restitution(duration, restitution, pair)
+            .map(|law| law.stiffness)
+            .map_err(|error| trouble(&error))
+    };
     let stiffness = match (section.stiffness, section.duration) {
         (Some(si_stiffness), _) => {
             positive(&key("stiffness"), si_stiffness, "N/m")?;
-            si_stiffness / units.si_stiffness()
+            let softest = of_duration(LONGEST_DURATION)? * units.si_stiffness();
+            if si_stiffness < softest {
+                let problem = format!(
+                    "it must be {:.2e} N/m or more: softer contacts last longer than {LONGEST_DURATION:.0e} time \
+                     steps and hold nothing",
+                    1.01 * softest
+                );
+                let remedy = "leave it out to have it chosen from weight and size";
+                return Err(Trouble::new(key("stiffness"), problem, remedy));
+            }
+            capped(si_stiffness / units.si_stiffness())
         }
-        (None, given) => {
-            let duration = match given {
-                Some(si_duration) => {
-                    positive(&key("duration"), si_duration, "s")?;
-                    si_duration / units.si_dt
-                }
-                None => DEFAULT_DURATION,
-            };
-            ContactLaw::from_duration_and_restitution(duration, restitution, pair)
-                .map_err(|error| trouble(&error))?
-                .stiffness
+        (None, Some(si_duration)) => {
+            positive(&key("duration"), si_duration, "s")?;
+            let duration = si_duration / units.si_dt;
+            if duration > LONGEST_DURATION {
+                let problem = format!(
+                    "it must be {:.2e} s or less ({LONGEST_DURATION:.0e} time steps): longer contacts hold nothing",
+                    0.99 * LONGEST_DURATION * units.si_dt
+                );
+                let remedy = "leave it out to have it chosen from weight and size";
+                return Err(Trouble::new(key("duration"), problem, remedy));
+            }
+            of_duration(duration.max(1.0 / HUGE.sqrt()))?
         }
+        (None, None) => of_duration(DEFAULT_DURATION)?.max(bodies.weight_asks),
     };
     let law = |mass: f64| match section.damping {
-        Some(si_damping) => ContactLaw::new(stiffness, si_damping / units.si_damping()),
+        Some(si_damping) => ContactLaw::new(stiffness, capped(si_damping / units.si_damping())),
         None => ContactLaw::from_stiffness_and_restitution(stiffness, restitution, mass),
     };
     let both = |mass: f64| law(mass).and_then(|law| with_friction(law, section));
     let grains = both(pair).map_err(|error| trouble(&error))?;
-    let walls = both(lightest).map_err(|error| trouble(&error))?;
+    let walls = both(bodies.lightest).map_err(|error| trouble(&error))?;
     Ok(Laws { grains, walls })
 }
 
@@ -119,9 +176,9 @@ pub(super) fn mirror(law: &ContactLaw) -> ContactLaw {
 pub(super) fn substeps(section: &ContactSection) -> Result<Substeps, Trouble> {
     let Some(given) = section.substeps else { return Ok(Substeps::Automatic) };
     match u32::try_from(given) {
-        Ok(count @ 1..=2500) => Ok(Substeps::Fixed(count)),
+        Ok(count @ 1..=MOST_SUBSTEPS) => Ok(Substeps::Fixed(count)),
         _ => {
-            let problem = "it must be a whole number between 1 and 2500";
+            let problem = format!("it must be a whole number between 1 and {MOST_SUBSTEPS}");
             Err(Trouble::new("contact.substeps", problem, "leave it out to have it chosen"))
         }
     }

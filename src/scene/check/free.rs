@@ -3,17 +3,19 @@
 use psmrt_reference::coupling::{CouplingSettings, FreeGrains, Gravity, InternalFluid};
 use psmrt_reference::domain::{Domain, Face};
 use psmrt_reference::grains::grain::Grain;
-use psmrt_reference::grains::lubrication::Lubrication;
 use psmrt_reference::grains::motion::{SubstepError, divide};
 use psmrt_reference::grains::plane::Plane;
 use psmrt_reference::grains::setup::{GrainError, GrainSetup, PeriodicBox};
 use psmrt_reference::lattice::{Vec3, viscosity};
 
-use super::contact::{Laws, laws, mirror, substeps};
+use super::contact::{Bodies, Laws, consistent, laws, mirror, substeps};
 use super::grains::{GrainList, Listed};
-use super::{Trouble, mirrors};
+use super::hardness::Burden;
+use super::{Trouble, balance, effort, mirrors};
 use crate::scene::format::SceneFile;
-use crate::scene::format_free::{GravityForm, GravitySection, InternalFluidName};
+use crate::scene::format_free::{
+    ContactSection, GravityForm, GravitySection, InternalFluidName, LubricationSection,
+};
 use crate::scene::format_grains::Motion;
 use crate::scene::units::Units;
 
@@ -59,18 +61,19 @@ pub(super) fn free_part(
         return no_free_grains(file).map(|()| None);
     }
     let contact = file.contact.clone().unwrap_or_default();
-    let laws = laws(&contact, lightest, units)?;
+    consistent(&contact)?;
     let gravity = file.gravity.as_ref().map(|section| gravity(section, units)).transpose()?;
+    if file.gravity.as_ref().is_some_and(|section| section.balance) {
+        balance::check(file, list, domain)?;
+    }
     let mirrored = mirrors::centred(domain, list, gravity.as_ref(), units)?;
-    let planes = planes(domain, &laws, &mirrored);
-    let lubrication = lubrication(file, list, domain, &mirrored, tau, units)?;
-    let length = |axis: usize| domain.is_periodic(axis).then(|| domain.cells()[axis] as f64);
-    let setup = GrainSetup {
-        sides: PeriodicBox { lengths: [length(0), length(1), length(2)] },
-        lubrication,
-        substeps: substeps(&contact)?,
-        ..GrainSetup::new(laws.grains)
-    };
+    let grains: Vec<Grain> = list.grains.iter().map(Listed::to_grain).collect();
+    let g = gravity.as_ref().map_or_else(Vec3::zeros, Gravity::acceleration);
+    let weight_asks = Burden::new(&grains, &g, domain, viscosity(tau)).stiffness();
+    let bodies = Bodies { lightest, weight_asks };
+    let maker = Maker { grains: &grains, bodies, domain, mirrored, tau, units };
+    let (setup, planes) = maker.make(&contact, file.lubrication.as_ref())?;
+    effort::check(&maker, &contact, file.lubrication.as_ref())?;
     let coupling = file.coupling.clone().unwrap_or_default();
     let settings = CouplingSettings {
         internal_fluid: match coupling.internal_fluid {
@@ -81,22 +84,42 @@ pub(super) fn free_part(
         average_loads: coupling.average_loads,
         ..CouplingSettings::default()
     };
-    let grains = list.grains.iter().map(Listed::to_grain).collect();
     let part = FreePart { setup, grains, planes, settings };
     part.free_grains(domain).map_err(|error| trouble(&error, list))?;
-    let count = part.substeps().map_err(|error| substep_trouble(&error))?;
-    if count > MOST_SUBSTEPS {
-        let key =
-            if contact.stiffness.is_some() { "contact.stiffness" } else { "contact.duration" };
-        let problem = format!("contacts are so short that a time step needs {count} sub-steps");
-        let remedy = "give a longer duration or a lower stiffness: 10 time steps are usual";
-        return Err(Trouble::new(key, problem, remedy));
-    }
     Ok(Some(part))
 }
 
-/// More sub-steps in a time step are refused: the contacts would last less than a hundredth of it.
-const MOST_SUBSTEPS: u32 = 2500;
+/// Makes the set-up of the grains from the keys of `[contact]` and `[lubrication]`.
+pub(super) struct Maker<'a> {
+    pub grains: &'a [Grain],
+    pub bodies: Bodies,
+    pub domain: &'a Domain,
+    /// Which faces cut grains in halves.
+    pub mirrored: [[bool; 2]; 3],
+    pub tau: f64,
+    pub units: &'a Units,
+}
+
+impl Maker<'_> {
+    /// The set-up and the faces that hold grains back. Errors at a value that cannot be used.
+    pub fn make(
+        &self,
+        contact: &ContactSection,
+        lubrication: Option<&LubricationSection>,
+    ) -> Result<(GrainSetup, Vec<Plane>), Trouble> {
+        let laws = laws(contact, &self.bodies, self.units)?;
+        let planes = planes(self.domain, &laws, &self.mirrored);
+        let length =
+            |axis: usize| self.domain.is_periodic(axis).then(|| self.domain.cells()[axis] as f64);
+        let setup = GrainSetup {
+            sides: PeriodicBox { lengths: [length(0), length(1), length(2)] },
+            lubrication: lubrication.map(|section| self.lubrication(section)).transpose()?,
+            substeps: substeps(contact)?,
+            ..GrainSetup::new(laws.grains)
+        };
+        Ok((setup, planes))
+    }
+}
 
 /// Errors at a section that only free grains have.
 fn no_free_grains(file: &SceneFile) -> Result<(), Trouble> {
@@ -119,16 +142,10 @@ fn no_free_grains(file: &SceneFile) -> Result<(), Trouble> {
 fn gravity(section: &GravitySection, units: &Units) -> Result<Gravity, Trouble> {
     let acceleration = super::acceleration("gravity.acceleration", section.acceleration, units)?;
     Ok(match section.form {
+        GravityForm::Reduced if section.balance => Gravity::Balanced { acceleration },
         GravityForm::Reduced => Gravity::Reduced { acceleration },
         GravityForm::BodyForce => Gravity::OnFluidToo { acceleration },
     })
-}
-
-/// The acceleration of either form.
-pub(super) fn acceleration(gravity: &Gravity) -> Vec3 {
-    match *gravity {
-        Gravity::Reduced { acceleration } | Gravity::OnFluidToo { acceleration } => acceleration,
-    }
 }
 
 /// The faces as planes: walls with their velocity, mirrors as what they mirror, and inlets, outflows
@@ -158,49 +175,6 @@ fn planes(domain: &Domain, laws: &Laws, mirrored: &[[bool; 2]; 3]) -> Vec<Plane>
     planes
 }
 
-/// The smallest gap of lubrication over the smallest radius, where a scene says nothing.
-const ROUGHNESS: f64 = 1e-3;
-
-fn lubrication(
-    file: &SceneFile,
-    list: &GrainList,
-    domain: &Domain,
-    mirrored: &[[bool; 2]; 3],
-    tau: f64,
-    units: &Units,
-) -> Result<Option<Lubrication>, Trouble> {
-    let Some(section) = &file.lubrication else { return Ok(None) };
-    for axis in 0..3 {
-        for (side, face) in domain.faces().axis(axis).into_iter().enumerate() {
-            if face == Face::FreeSlip && !mirrored[axis][side] {
-                let problem = "a mirror plane (`free_slip`) would get the lubrication of a wall, \
-                               four times that between a grain and its mirror image";
-                let remedy = "make that face a wall or periodic, or remove [lubrication]";
-                return Err(Trouble::new("lubrication", problem, remedy));
-            }
-        }
-    }
-    let smallest = list.grains.iter().map(|listed| listed.radius).fold(f64::INFINITY, f64::min);
-    let given = |si_gap: Option<f64>, default: f64| si_gap.map_or(default, |gap| gap / units.si_dx);
-    let lubrication = Lubrication {
-        viscosity: viscosity(tau),
-        cutoff_gap: given(section.cutoff_gap, 1.0),
-        smallest_gap: given(section.smallest_gap, ROUGHNESS * smallest),
-    };
-    let checked = lubrication.checked().map(Some);
-    checked.map_err(|_| {
-        let key = if section.smallest_gap.is_some() { "smallest_gap" } else { "cutoff_gap" };
-        let problem = format!(
-            "the gaps are {:.3e} m (smallest) and {:.3e} m (cut-off); the smallest must be above 0 \
-             and below the cut-off",
-            lubrication.smallest_gap * units.si_dx,
-            lubrication.cutoff_gap * units.si_dx
-        );
-        let remedy = "common are a thousandth of a radius and the edge of a cell";
-        Trouble::new(format!("lubrication.{key}"), problem, remedy)
-    })
-}
-
 /// The key to blame for grains that cannot be moved.
 fn trouble(error: &GrainError, list: &GrainList) -> Trouble {
     let change = "change the value";
@@ -215,24 +189,7 @@ fn trouble(error: &GrainError, list: &GrainList) -> Trouble {
             }
         }
         GrainError::Lubrication(_) => Trouble::new("lubrication", error.to_string(), change),
-        GrainError::Substep(error) => substep_trouble(error),
         _ => Trouble::new("grains", error.to_string(), change),
-    }
-}
-
-fn substep_trouble(error: &SubstepError) -> Trouble {
-    match error {
-        SubstepError::TooLong { shortest_time, needed, .. } => {
-            let problem = format!(
-                "the sub-steps would be too long: the shortest contact takes {shortest_time:.3} \
-                 time steps and needs 10 sub-steps or more"
-            );
-            let remedy = format!(
-                "give {needed} sub-steps or more, leave `substeps` out, or make contacts last longer"
-            );
-            Trouble::new("contact.substeps", problem, remedy)
-        }
-        _ => Trouble::new("contact", error.to_string(), "make contacts last longer"),
     }
 }
 

@@ -4,7 +4,6 @@ use psmrt_reference::coupling::Gravity;
 use psmrt_reference::domain::{Domain, Face};
 
 use super::Trouble;
-use super::free::acceleration;
 use super::grains::GrainList;
 use super::neighbours::MAX_OVERLAP;
 use crate::scene::format_grains::Motion;
@@ -62,7 +61,7 @@ fn alone(
     gravity: Option<&Gravity>,
 ) -> Result<(), Trouble> {
     let name = ["x", "y", "z"][axis];
-    if gravity.is_some_and(|gravity| acceleration(gravity)[axis] != 0.0) {
+    if gravity.is_some_and(|gravity| gravity.acceleration()[axis] != 0.0) {
         let problem = format!(
             "gravity pulls along {name} at a free grain whose centre lies on a mirror plane across \
              {name}: the image would be pulled the other way"

@@ -2,20 +2,24 @@
 //! one [`Trouble`] that names the key, what is allowed, and the remedy.
 
 mod arrays;
+mod balance;
 pub mod checkpoint;
 mod collision;
 pub mod contact;
 pub mod domain;
+mod effort;
 mod faces;
 pub mod free;
 mod generated;
 mod grain_kinds;
 pub mod grain_list;
 pub mod grains;
+pub(crate) mod hardness;
 mod list_header;
 mod list_text;
+mod lubrication;
 mod mirrors;
-mod neighbours;
+pub(crate) mod neighbours;
 mod numbers;
 pub mod records;
 mod solid;
@@ -24,7 +28,7 @@ mod time;
 
 use std::path::Path;
 
-use psmrt_reference::coupling::Gravity;
+use psmrt_reference::coupling::{Gravity, balancing_force};
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SetupError};
@@ -34,6 +38,7 @@ use super::format_run::ExactName;
 use super::units::Units;
 use super::{Scene, Trouble};
 use crate::exact::PlanePoiseuille;
+use free::FreePart;
 use grains::GrainList;
 use numbers::{beyond, finite, positive, sane, shorter_step};
 
@@ -66,10 +71,8 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     };
     let mut list = GrainList::new(&file.grains, folder, &setup.domain, &units)?;
     let free = free::free_part(file, &mut list, &setup.domain, tau, &units)?;
-    if let Some(Gravity::OnFluidToo { acceleration }) =
-        free.as_ref().and_then(|f| f.settings.gravity)
-    {
-        setup.body_force = Some(setup.body_force.unwrap_or_else(Vec3::zeros) + acceleration);
+    if let Some(force) = free.as_ref().and_then(|part| gravity_on_fluid(part, &setup.domain)) {
+        setup.body_force = Some(setup.body_force.unwrap_or_else(Vec3::zeros) + force);
     }
     setup.solid_phase = solid::solid_phase(file.solid.as_ref(), list.solids())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
@@ -134,6 +137,18 @@ fn acceleration(key: &str, si_acceleration: [f64; 3], units: &Units) -> Result<V
     // What a step gains goes with its square.
     let remedy = shorter_step(units, (0.5 * MAX_SPEED / gain).sqrt()) + ", or use a weaker one";
     Err(Trouble::new(key, problem, remedy))
+}
+
+/// The part of gravity that is a body force on the fluid, if one is.
+fn gravity_on_fluid(part: &FreePart, domain: &Domain) -> Option<Vec3> {
+    match part.settings.gravity? {
+        Gravity::Reduced { .. } => None,
+        Gravity::Balanced { acceleration } => {
+            let density = part.settings.fluid_density;
+            Some(balancing_force(domain, &part.grains, density, acceleration))
+        }
+        Gravity::OnFluidToo { acceleration } => Some(acceleration),
+    }
 }
 
 /// What the sections' own checks have let through: said in the reference's words.

@@ -77,7 +77,11 @@ pub(super) fn units_and_tau(
 fn step_of_tau(tau: f64, si_dx: f64, si_nu: f64) -> Result<f64, Trouble> {
     if !(tau > 0.5 && tau.is_finite()) {
         let problem = "it must be above 0.5: at 0.5 and below the fluid has no viscosity";
-        return Err(Trouble::new("time.tau", problem, "0.6 to 1 is usual; try 0.8"));
+        return Err(Trouble::new(
+            "time.tau",
+            problem,
+            "0.55 to 0.8 cost least for what they are worth; try 0.6",
+        ));
     }
     // ν = (τ - 1/2)/3 dx²/dt
     Ok((tau - 0.5) / 3.0 * si_dx * si_dx / si_nu)

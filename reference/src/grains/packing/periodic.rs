@@ -2,13 +2,14 @@
 //!
 //! All spheres have their final size from the start. They are moved by the contact law, without
 //! friction, in a viscous medium that takes their energy; the packing is the first configuration in
-//! which no overlap is larger than allowed. Above the porosity at which random packings jam (0.36 for
-//! equal spheres) that state exists and is reached in some hundreds of sub-steps.
+//! which no overlap is larger than allowed. Above the porosity at which random packings jam
+//! ([`jamming_porosity`]) that state exists and is reached in some hundreds of sub-steps; near it some
+//! beginnings end in a dead end, the more often the fewer grains there are, so that others are tried.
 
 use crate::grains::grain::Grain;
 use crate::grains::law::ContactLaw;
 use crate::grains::packing::{
-    Packing, PackingError, PackingReport, check_radii, contacts, porosity,
+    Packing, PackingError, PackingReport, check_radii, contacts, jamming_porosity, porosity,
 };
 use crate::grains::random::SplitMix64;
 use crate::grains::setup::{GrainSetup, PeriodicBox};
@@ -22,6 +23,12 @@ const DRAG: f64 = 0.1;
 
 /// Sub-steps after which the attempt is given up; 2,000 are enough at porosity 0.38.
 const MOST_SUBSTEPS: u32 = 20_000;
+
+/// Beginnings that are tried where spheres of these sizes do not jam for certain.
+const BEGINNINGS: u64 = 6;
+
+/// How far below the porosity of jamming a packing of a few grains may still be found.
+const SCATTER: f64 = 0.01;
 
 /// Sub-steps from one look at the overlaps to the next.
 const LOOK_EVERY: u32 = 10;
@@ -54,7 +61,26 @@ impl PeriodicPacking {
         self.check()?;
         let sides = PeriodicBox::all(self.lengths);
         let porosity = porosity(&self.radii, self.lengths.iter().product());
-        let mut system = self.thrown_in(sides)?;
+        let pushed = 1.0 - (1.0 - porosity) * (1.0 + self.clearance).powi(3);
+        let is_near = pushed > jamming_porosity(&self.radii) - SCATTER;
+        let beginnings = if is_near { BEGINNINGS } else { 1 };
+        let mut made = self.push_apart(sides, porosity, self.seed);
+        for beginning in 1..beginnings {
+            let Err(PackingError::Jammed { .. }) = made else { break };
+            // Not a neighbouring seed: that one is the user's next try.
+            made = self.push_apart(sides, porosity, self.seed ^ (beginning << 48));
+        }
+        made
+    }
+
+    /// One attempt.
+    fn push_apart(
+        &self,
+        sides: PeriodicBox,
+        porosity: f64,
+        seed: u64,
+    ) -> Result<Packing, PackingError> {
+        let mut system = self.thrown_in(sides, seed)?;
         let substep = system.shortest_time() / 15.0;
         let stiffness = system.setup().law.stiffness;
         let drag = |grain: &Grain| DRAG * (stiffness * grain.mass).sqrt();
@@ -73,12 +99,13 @@ impl PeriodicPacking {
         }
         let (_, overlap) = contacts(system.grains(), &sides, &[]);
         let (allowed, substeps) = (self.largest_overlap, MOST_SUBSTEPS);
-        Err(PackingError::Jammed { porosity, overlap, allowed, substeps })
+        let jams_at = jamming_porosity(&self.radii);
+        Err(PackingError::Jammed { porosity, overlap, allowed, substeps, jams_at })
     }
 
     /// Grains, their diameters enlarged by the clearance, at random places, regardless of overlaps.
-    fn thrown_in(&self, sides: PeriodicBox) -> Result<GrainSystem, PackingError> {
-        let mut random = SplitMix64::new(self.seed);
+    fn thrown_in(&self, sides: PeriodicBox, seed: u64) -> Result<GrainSystem, PackingError> {
+        let mut random = SplitMix64::new(seed);
         let grain = |&radius: &f64| {
             let place = Vec3::from_fn(|axis, _| self.lengths[axis] * random.unit());
             Grain::sphere(place, radius * (1.0 + self.clearance), 1.0)

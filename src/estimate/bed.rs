@@ -1,0 +1,176 @@
+//! Where the grains of a scene lie densest: a bed with clear fluid above it is as tight as the bed, not as
+//! the box.
+//!
+//! Along an axis the solid fraction is averaged over slabs as thick as the largest grain. The bed is the
+//! stretch around the fullest slab in which such slabs hold at least half as much; it is found along one axis
+//! after the other, first along that which tells most. The solid fraction is exact along the axis; what a
+//! second axis cuts off a grain is taken to be the same at every height.
+
+use std::f64::consts::PI;
+
+use crate::scene::Scene;
+
+use super::spheres::{solid_fraction, spheres};
+
+/// A bed that is told from its box has at least this solid fraction: looser grains are a cloud, whose drag
+/// does not depend much on how they lie.
+pub(crate) const DENSE: f64 = 0.3;
+
+/// It holds the volume of so many of its largest grain, or it is a few that touch.
+const FEWEST: f64 = 4.0;
+
+/// It is so much denser than the box, or the box is the bed.
+const DENSER: f64 = 1.05;
+
+/// A slab is looked at every so many of its thickness.
+const EVERY: f64 = 0.125;
+
+/// A part of the box that holds a bed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bed {
+    /// Solid fraction.
+    pub fraction: f64,
+    /// From where to where along each axis, cells; over an end of a periodic box it goes on at the other.
+    pub reaches: [[f64; 2]; 3],
+}
+
+/// A sphere as a bed sees it.
+struct Part {
+    centre: [f64; 3],
+    radius: f64,
+    /// Share of it that lies within the bed along the axes that are done.
+    share: f64,
+}
+
+/// The bed of a scene, if its grains are dense somewhere and the box is not as dense everywhere.
+pub(crate) fn bed(scene: &Scene) -> Option<Bed> {
+    let domain = &scene.setup.domain;
+    let cells = domain.cells().map(|n| n as f64);
+    let mut parts: Vec<Part> = spheres(scene)
+        .into_iter()
+        .map(|(solid, radius, _)| Part { centre: solid.centre.into(), radius, share: 1.0 })
+        .collect();
+    let largest = parts.iter().map(|part| part.radius).fold(0.0, f64::max);
+    if largest == 0.0 {
+        return None;
+    }
+    let mut reaches = cells.map(|length| [0.0, length]);
+    let mut left = vec![0, 1, 2];
+    while !left.is_empty() {
+        let found = left.iter().map(|&axis| {
+            let is_periodic = domain.is_periodic(axis);
+            (axis, stretch(&parts, axis, (cells[axis], is_periodic), 2.0 * largest))
+        });
+        let shortest = found.min_by(|a, b| {
+            let share = |(axis, [low, high]): &(usize, [f64; 2])| (high - low) / cells[*axis];
+            share(a).total_cmp(&share(b))
+        });
+        let Some((axis, [low, high])) = shortest else { break };
+        let length = domain.is_periodic(axis).then_some(cells[axis]);
+        for part in &mut parts {
+            part.share *= within(part, axis, [low, high], length);
+        }
+        reaches[axis] = [low, high];
+        left.retain(|&other| other != axis);
+    }
+    let volume: f64 = parts.iter().map(|part| part.share * sphere(part.radius)).sum();
+    let fraction = volume / reaches.iter().map(|[low, high]| high - low).product::<f64>();
+    let is_bed = fraction >= DENSE
+        && volume >= FEWEST * sphere(largest)
+        && fraction > DENSER * solid_fraction(scene);
+    is_bed.then_some(Bed { fraction, reaches })
+}
+
+fn sphere(radius: f64) -> f64 {
+    4.0 / 3.0 * PI * radius.powi(3)
+}
+
+/// Share of a sphere between two planes.
+fn share_of(radius: f64, centre: f64, [low, high]: [f64; 2]) -> f64 {
+    let below = |plane: f64| {
+        // Height h of the cap over the diameter:  V(h)/V = h² (3 - 2 h)
+        let height = ((plane - centre) / (2.0 * radius) + 0.5).clamp(0.0, 1.0);
+        height * height * (3.0 - 2.0 * height)
+    };
+    below(high) - below(low)
+}
+
+/// The same of a grain; where the axis is periodic also that of its images.
+fn within(part: &Part, axis: usize, planes: [f64; 2], length: Option<f64>) -> f64 {
+    let share = |centre: f64| share_of(part.radius, centre, planes);
+    let centre = part.centre[axis];
+    match length {
+        Some(length) => [-1.0, 0.0, 1.0].iter().map(|times| share(centre + times * length)).sum(),
+        None => share(centre),
+    }
+}
+
+/// The stretch of an axis in which slabs of a thickness are at least half as full as the fullest.
+fn stretch(
+    parts: &[Part],
+    axis: usize,
+    (length, is_periodic): (f64, bool),
+    thickness: f64,
+) -> [f64; 2] {
+    let whole = [0.0, length];
+    if length <= thickness {
+        return whole;
+    }
+    // Slabs around points from end to end; at a closed end they lie against it.
+    let [first, last] =
+        if is_periodic { whole } else { [0.5 * thickness, length - 0.5 * thickness] };
+    let count = ((last - first) / (EVERY * thickness)).ceil().max(1.0);
+    let step = (last - first) / count;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+    let mut filled = vec![0.0; count as usize + 1];
+    let point = |number: usize| first + number as f64 * step;
+    for part in parts {
+        let reach = 0.5 * thickness + part.radius;
+        for image in if is_periodic { vec![-length, 0.0, length] } else { vec![0.0] } {
+            let centre = part.centre[axis] + image;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "not below 0"
+            )]
+            let from = ((centre - reach - first) / step).max(0.0) as usize;
+            for (number, volume) in filled.iter_mut().enumerate().skip(from) {
+                let slab = [-0.5, 0.5].map(|half| point(number) + half * thickness);
+                if slab[0] > centre + part.radius {
+                    break;
+                }
+                *volume += part.share * sphere(part.radius) * share_of(part.radius, centre, slab);
+            }
+        }
+    }
+    let Some(top) = (0..filled.len()).max_by(|&a, &b| filled[a].total_cmp(&filled[b])) else {
+        return whole;
+    };
+    let half = 0.5 * filled[top];
+    if filled.iter().all(|&volume| volume >= half) {
+        return whole;
+    }
+    // Where the filling falls through the half, between two points; `None` at a closed end.
+    let edge = |way: isize| -> Option<f64> {
+        let count = isize::try_from(filled.len()).ok()?;
+        let mut at = isize::try_from(top).ok()?;
+        for gone in 0..count {
+            let mut next = at + way;
+            if is_periodic {
+                // The last point is the first again.
+                next = if next < 0 { count - 2 } else { next % (count - 1) };
+            } else if next < 0 || next >= count {
+                return None;
+            }
+            let [here, there] = [at, next].map(|i| usize::try_from(i).unwrap_or(0));
+            if filled[there] < half {
+                let share = (filled[here] - half) / (filled[here] - filled[there]);
+                return Some(step * (gone as f64 + share));
+            }
+            at = next;
+        }
+        None
+    };
+    let [low, high] = [edge(-1), edge(1)];
+    [low.map_or(0.0, |gone| point(top) - gone), high.map_or(length, |gone| point(top) + gone)]
+}

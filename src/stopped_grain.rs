@@ -1,0 +1,245 @@
+//! Why a run stopped at a free grain, in SI units: what has happened to it, why probably, and what to do.
+
+use std::fmt;
+
+use psmrt_reference::coupling::{CoupledStop, Gravity};
+use psmrt_reference::grains::hold::{self, DEEPEST, Obstacle, Sunk};
+use psmrt_reference::grains::setup::GrainError;
+use psmrt_reference::grains::system::GrainSystem;
+use psmrt_reference::lattice::{Vec3, viscosity};
+use thiserror::Error;
+
+use crate::engine::{Engine, EngineStop};
+use crate::scene::check::MAX_SPEED;
+use crate::scene::check::hardness::{Burden, IN_IMPACT, ONE_ON_ONE};
+use crate::scene::{FreePart, Scene};
+
+/// A run that stopped at a free grain.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub struct GrainStop {
+    /// Steps that were made.
+    pub step: u64,
+    /// The time then, s.
+    pub si_time: f64,
+    /// What has happened.
+    pub symptom: String,
+    /// Why, probably.
+    pub cause: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+impl fmt::Display for GrainStop {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let GrainStop { step, si_time, symptom, cause, remedy } = self;
+        write!(
+            out,
+            "stopped after step {step} ({si_time:.4e} s): {symptom}. Probable cause: {cause}\n  help: {remedy}"
+        )
+    }
+}
+
+/// The stop in SI units if a free grain is to blame.
+pub(crate) fn explained(
+    stop: &EngineStop,
+    scene: &Scene,
+    engine: &dyn Engine,
+) -> Option<GrainStop> {
+    let EngineStop::Broken(CoupledStop::Grains(error)) = stop else { return None };
+    let case = Case { scene, part: scene.free.as_ref()?, system: engine.free_grains()? };
+    let (symptom, cause, remedy) = match error {
+        GrainError::Sunk(sunk) => case.sunk(sunk),
+        GrainError::Thrown { grain, speed, gained, .. } => case.thrown(*grain, *speed, *gained),
+        GrainError::NotFinite { grain, position } => {
+            let finite = |vector: &Vec3| vector.iter().all(|x| x.is_finite());
+            let is_fluid = engine.loads().iter().any(|l| !(finite(&l.force) && finite(&l.torque)));
+            Case::nowhere(*grain, position, is_fluid)
+        }
+        _ => return None,
+    };
+    let step = engine.steps();
+    let si_time = step as f64 * scene.units.si_dt;
+    Some(GrainStop { step, si_time, symptom, cause, remedy })
+}
+
+/// Symptom, cause and remedy.
+type Words = (String, String, String);
+
+/// A scene, and its grains when the run stopped.
+struct Case<'a> {
+    scene: &'a Scene,
+    part: &'a FreePart,
+    system: &'a GrainSystem,
+}
+
+impl Case<'_> {
+    /// A grain too deep in an obstacle.
+    fn sunk(&self, sunk: &Sunk) -> Words {
+        let units = &self.scene.units;
+        let grain = &self.system.grains()[sunk.grain];
+        let (obstacle, mass, weaker) = match sunk.obstacle {
+            Obstacle::Plane(plane) => (self.face(plane), grain.mass, sunk.grain),
+            Obstacle::Grain(other) => {
+                let two = &self.system.grains()[other];
+                let mass = match two.held {
+                    true => grain.mass,
+                    // What presses is the heavier one: the lighter may stand on something.
+                    false => grain.mass.max(two.mass),
+                };
+                let weaker = if two.radius < grain.radius { other } else { sunk.grain };
+                (format!("grain {other}"), mass, weaker)
+            }
+        };
+        let is_through = matches!(sunk.obstacle, Obstacle::Plane(_)) && sunk.overlap > sunk.radius;
+        let symptom = format!(
+            "grain {} (counted from 0) {} {obstacle}: it is {:.3e} m deep, {:.2} times the radius of grain {weaker}, and \
+             {DEEPEST} is the limit",
+            sunk.grain,
+            if is_through { "has gone through" } else { "has sunk into" },
+            sunk.overlap * units.si_dx,
+            sunk.depth(),
+        );
+        let stiffness = self.part.setup.law.stiffness;
+        let diameter = 2.0 * sunk.radius;
+        let overlaps = self.burden().overlaps(stiffness);
+        let at_rest = overlaps.in_bed.max(overlaps.one_on_one);
+        let speed = grain.velocity.norm();
+        // m v² = k δ²
+        let arrives = sunk.approach.max(0.0);
+        let stopping = arrives * (mass / stiffness).sqrt();
+        if let Some(words) = self.overlap_at_start(sunk.grain, speed) {
+            return (symptom, words.0, words.1);
+        }
+        // What would have held it: at rest, in the impact, and against what has pressed it in.
+        let asked = self.burden().stiffness();
+        let pressed = stiffness * sunk.overlap / (ONE_ON_ONE * diameter);
+        let impact = mass * arrives * arrives / (IN_IMPACT * diameter).powi(2);
+        let harder = self.harder(asked.max(pressed).max(impact));
+        if at_rest > 0.5 * DEEPEST {
+            let cause = format!(
+                "contacts are too soft: at a stiffness of {:.3e} N/m weight presses grains in by {at_rest:.2e} of a \
+                 diameter",
+                stiffness * units.si_stiffness()
+            );
+            return (symptom, cause, harder);
+        }
+        let substep = 1.0 / f64::from(self.part.substeps().unwrap_or(1));
+        if speed * substep > 0.5 * sunk.radius {
+            let cause = format!(
+                "the sub-step is too long: the grain moves {:.2} of its radius in one, and the contact is seen too late",
+                speed * substep / grain.radius
+            );
+            return (symptom, cause, self.shorter(speed));
+        }
+        if speed > MAX_SPEED {
+            let cause = format!(
+                "the grain moves at {speed:.2} cells per time step, which the flow about it does not survive"
+            );
+            return (symptom, cause, self.shorter(speed));
+        }
+        let cause = if stopping > 0.1 * sunk.radius {
+            format!(
+                "contacts are too soft for the speed at which it arrives ({:.3e} m/s): at {:.3e} N/m they stop it in \
+                 {:.1e} m",
+                arrives * units.si_velocity(),
+                stiffness * units.si_stiffness(),
+                stopping * units.si_dx
+            )
+        } else {
+            format!(
+                "contacts are too soft ({:.3e} N/m) for the {:.2e} N with which fluid and other grains press it in",
+                stiffness * units.si_stiffness(),
+                stiffness * sunk.overlap * units.si_force()
+            )
+        };
+        (symptom, cause, harder)
+    }
+
+    /// A grain that contacts have thrown.
+    fn thrown(&self, grain: usize, speed: f64, gained: f64) -> Words {
+        let si = self.scene.units.si_velocity();
+        let symptom = format!(
+            "grain {grain} (counted from 0) moves at {:.3e} m/s, {speed:.2} cells per time step, and contacts have given \
+             it {:.3e} m/s in the last step",
+            speed * si,
+            gained * si
+        );
+        let (cause, remedy) = self.overlap_at_start(grain, speed).unwrap_or_else(|| {
+            let cause = "a contact was pressed in deep and has sprung back".to_owned();
+            (cause, self.shorter(speed))
+        });
+        (symptom, cause, remedy)
+    }
+
+    /// A grain that is nowhere.
+    fn nowhere(grain: usize, position: &[f64; 3], is_fluid: bool) -> Words {
+        let symptom = match position.iter().all(|x| x.is_finite()) {
+            true => {
+                format!("grain {grain} (counted from 0) is farther off than cells can be numbered")
+            }
+            false => format!("the place of grain {grain} (counted from 0) is not a number"),
+        };
+        match is_fluid {
+            true => {
+                let cause = "the load of the fluid on a grain is not a number: the flow has broken"
+                    .to_owned();
+                (symptom, cause, "use a shorter time step or a finer grid".to_owned())
+            }
+            false => {
+                let cause = "contacts: all loads of the fluid are finite".to_owned();
+                let remedy = "look for grains at the same place at the start, and leave [contact] out to have it \
+                              chosen";
+                (symptom, cause, remedy.to_owned())
+            }
+        }
+    }
+
+    /// Whether an overlap at the start explains the speed of a grain: cause and remedy.
+    fn overlap_at_start(&self, grain: usize, speed: f64) -> Option<(String, String)> {
+        let FreePart { setup, grains, planes, .. } = self.part;
+        let start = GrainSystem::new(*setup, grains.clone(), planes.clone()).ok()?;
+        let at_start = hold::deepest_of(&start, grain)?;
+        // k δ²/2 = m v²/2; a part of it is enough to blame it.
+        let thrown = at_start.overlap * (setup.law.stiffness / grains[grain].mass).sqrt();
+        if at_start.overlap <= 0.0 || speed == 0.0 || thrown < 0.5 * speed {
+            return None;
+        }
+        let units = &self.scene.units;
+        let cause = format!(
+            "an overlap of {:.2e} m at the start, whose spring throws it at up to {:.2e} m/s",
+            at_start.overlap * units.si_dx,
+            thrown * units.si_velocity()
+        );
+        Some((cause, "move the grains apart at the start, or make contacts longer".to_owned()))
+    }
+
+    fn burden(&self) -> Burden {
+        let g = self.part.settings.gravity.as_ref().map_or_else(Vec3::zeros, Gravity::acceleration);
+        let setup = &self.scene.setup;
+        Burden::new(&self.part.grains, &g, &setup.domain, viscosity(setup.collision.tau()))
+    }
+
+    /// The remedy of stiffer contacts.
+    fn harder(&self, stiffness: f64) -> String {
+        let chosen = match self.part.setup.law.stiffness < 0.99 * self.burden().stiffness() {
+            true => "leave `stiffness` and `duration` of [contact] out to have them chosen, or ",
+            false => "",
+        };
+        let si_stiffness = 1.01 * stiffness * self.scene.units.si_stiffness();
+        format!("{chosen}use contact.stiffness = {si_stiffness:.2e} (N/m) or more")
+    }
+
+    /// The remedy of a shorter time step, with which a grain of this speed is slow enough.
+    fn shorter(&self, speed: f64) -> String {
+        let si_dt = self.scene.units.si_dt * (0.5 * MAX_SPEED / speed).min(0.5);
+        format!("use a shorter time step: time.dt = {si_dt:.2e} (s) or less")
+    }
+
+    /// The face of a plane, in words.
+    fn face(&self, plane: usize) -> String {
+        let normal = self.system.planes()[plane].normal;
+        let axis = normal.iamax();
+        let side = if normal[axis] > 0.0 { "low" } else { "high" };
+        format!("the face {}_{side}", ["x", "y", "z"][axis])
+    }
+}
