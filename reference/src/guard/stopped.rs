@@ -210,14 +210,15 @@ const MAX_DENSITY_DRIFT: f64 = 0.1;
 
 /// The first cause for which there is evidence, the most certain kinds first.
 pub(super) fn probable_cause(guard: &Guard, setup: &Setup, step: u64) -> Cause {
-    if guard.first_mean_density.is_none() {
-        return Cause::InitialState;
-    }
     let limit = guard.settings.max_speed;
     // A speed that is no number any more is no slow one.
     let is_fast = |&(_, speed): &(usize, f64)| speed.is_nan() || speed > 0.5 * limit;
     if let Some((solid, speed)) = fastest_solid(setup).filter(is_fast) {
         return Cause::SolidSpeed { solid, speed };
+    }
+    // After the solids, with which the cells that they cover start.
+    if guard.first_mean_density.is_none() {
+        return Cause::InitialState;
     }
     if let Some((face, speed)) = fastest_face(setup).filter(|&(_, speed)| speed > 0.5 * limit) {
         return Cause::FaceSpeed { face, speed };
