@@ -44,7 +44,7 @@ fn fractions_of_all_cells_at_once_are_those_of_each() {
         let (centre, radius) = (random.vector(3.0), random.between(0.1, 9.0));
         let mut touched = 0;
         let about = cells_about(centre.into(), radius);
-        solid_fractions(centre.into(), radius, about, |cell, found| {
+        solid_fractions(centre.into(), radius, &about, |cell, found| {
             let from_cell = centre - Vec3::from(cell.map(|i| i as f64 + 0.5));
             // Terms up to the radius cubed, some 700, in another order.
             assert_close(found, solid_fraction(from_cell.into(), radius), 1e-12);

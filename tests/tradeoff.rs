@@ -217,9 +217,16 @@ fn committed_rows_can_be_measured_again() {
         }
         let again = measured(&mut runner, &row.knobs, &mut budget);
         let (new, old) = (again.error.unwrap(), row.error.unwrap());
-        // The same program on another machine: mathematical libraries differ in the last digit, and the
-        // error is rounded to six.
-        assert!((new - old).abs() < 1e-5 * old.abs().max(1e-3), "{:?}: {new} {old}", row.knobs);
+        // The same program on another machine: mathematical libraries differ in the last digit, and the error is
+        // rounded to six. And the committed flows were taken for steady by an older criterion, three changes below
+        // 2e-5 (1e-8 between plates) from row to row: where these fall by a tenth each time, ten times that is left.
+        let left = match flow {
+            Flow::Settling => 0.0,
+            Flow::Poiseuille => 1e-7,
+            _ => 2e-4,
+        };
+        let allowed = 1e-5 * old.abs().max(1e-3) + left * (1.0 + old.abs());
+        assert!((new - old).abs() < allowed, "{:?}: {new} {old}", row.knobs);
         compared += 1;
     }
     assert!(compared >= 30, "only {compared}");

@@ -22,6 +22,9 @@ const PICTURE_CELL: f64 = 110.0;
 const PICTURE: f64 = 15e3;
 const OUTLINE: f64 = 1500.0;
 
+/// What stands before the numbers in the files of a record, each time.
+const HEADS: f64 = 3e3;
+
 /// A grain in a file for ParaView: 22 numbers in double precision, and two of the lists of points.
 const GRAIN_POINT: f64 = 24.0 * 8.0;
 
@@ -55,7 +58,7 @@ fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
         What::Box | What::GrainMeans => row,
         What::Profile { axis, .. } => row * cells[*axis],
         What::Loads => row * solids,
-        What::Grains => GRAIN_POINT * solids,
+        What::Grains => HEADS + GRAIN_POINT * solids,
         What::Slice { normal, .. } => {
             PICTURE + PICTURE_CELL * all / cells[*normal] + OUTLINE * solids
         }
@@ -66,7 +69,7 @@ fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
                 FieldFormat::Vti => 4.0,
                 FieldFormat::Npy => 8.0,
             };
-            formats.iter().map(size).sum::<f64>() * values * all
+            HEADS + formats.iter().map(size).sum::<f64>() * values * all
         }
     }
 }

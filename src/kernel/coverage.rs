@@ -256,7 +256,7 @@ fn list_sphere(
     let [x_range, y_range, z_range] = cells_about((*centre).into(), radius);
     let cells = [domain.within(0, x_range), domain.within(1, y_range), domain.within(2, z_range)];
     let CoverageRule::Sampled { n } = rule else {
-        return solid_fractions((*centre).into(), radius, cells, add);
+        return solid_fractions((*centre).into(), radius, &cells, add);
     };
     let [x_range, y_range, z_range] = cells;
     for z in z_range {

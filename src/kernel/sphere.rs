@@ -49,7 +49,7 @@ fn floor(coordinate: f64) -> i64 {
 pub fn solid_fractions(
     centre: [f64; 3],
     radius: f64,
-    cells: [RangeInclusive<i64>; 3],
+    cells: &[RangeInclusive<i64>; 3],
     mut tell: impl FnMut([i64; 3], f64),
 ) {
     if cells.iter().any(RangeInclusive::is_empty) {

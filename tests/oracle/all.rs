@@ -35,7 +35,6 @@ mod moments;
 mod momentum_balance;
 mod poiseuille;
 mod ps_channel_wall;
-mod registers;
 mod reproducible;
 mod sphere_arrays;
 mod stokes_settling;

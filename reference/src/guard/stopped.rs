@@ -213,10 +213,10 @@ pub(super) fn probable_cause(guard: &Guard, setup: &Setup, step: u64) -> Cause {
     let limit = guard.settings.max_speed;
     // A speed that is no number any more is no slow one.
     let is_fast = |&(_, speed): &(usize, f64)| speed.is_nan() || speed > 0.5 * limit;
+    // First of all: the cells that a solid covers start with its motion.
     if let Some((solid, speed)) = fastest_solid(setup).filter(is_fast) {
         return Cause::SolidSpeed { solid, speed };
     }
-    // After the solids, with which the cells that they cover start.
     if guard.first_mean_density.is_none() {
         return Cause::InitialState;
     }

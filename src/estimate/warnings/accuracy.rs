@@ -112,14 +112,19 @@ fn because(facts: &Facts) -> String {
     }
 }
 
+/// Near tau = 1/2 two errors cancel, so that a small one may be an accident: a remedy may not err by more than
+/// this either, nor have a coarser grid.
+const AT_MOST: f64 = 2.0 * TOO_LARGE;
+
 /// The cheapest way that is not warned of, with the scene's collision; else the most accurate.
 fn remedy(outlook: &Outlook) -> String {
     let Outlook { facts, models, collision, kernel, .. } = outlook;
     let engine = if *kernel { "wgpu" } else { "reference" };
     let speed = Speed { engine: engine.to_owned(), mrt: 1.0, srt: 1.0 };
     let all = ways(facts, models, std::slice::from_ref(&speed));
-    let own: Vec<Way> = all.into_iter().filter(|way| way.collision == *collision).collect();
-    let good = own.iter().filter(|way| way.error <= TOO_LARGE);
+    let is_own = |way: &Way| way.collision == *collision && way.si_dx <= facts.si_dx * (1.0 + 1e-9);
+    let own: Vec<Way> = all.into_iter().filter(is_own).collect();
+    let good = own.iter().filter(|way| way.error <= TOO_LARGE && way.band[1] <= AT_MOST);
     let good = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let Some(best) = good.or(most_accurate(&own, f64::INFINITY)) else {
         return why_none(facts, models);
