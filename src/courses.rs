@@ -139,7 +139,10 @@ fn closed(face: &Face) -> Option<&'static str> {
         Face::Wall { .. } => Some("wall"),
         Face::FreeSlip => Some("mirror, free_slip"),
         Face::VelocityInlet { .. } => Some("velocity_inlet"),
-        Face::Periodic | Face::FreeOutflow | Face::Pressure { .. } => None,
+        Face::Periodic
+        | Face::FreeOutflow
+        | Face::Pressure { .. }
+        | Face::DevelopedPressure { .. } => None,
     }
 }
 

@@ -60,6 +60,9 @@ fn channel_between_pressure_faces_is_warned_of_with_the_measured_excess_of_its_f
             "{length} x {width}: {excess} is said, {measured} times exact was measured"
         );
         assert!(due.remedy.contains("[body_force]"), "{due:?}");
+        assert!(due.remedy.contains("developed = true"), "{due:?}");
+        let remedied = text.replace("e-5 }", "e-5, developed = true }");
+        assert_eq!(warned(&scene(&remedied), "shear stress"), None, "the remedy must be one");
     }
     // A mirror plane shows half of the channel: the same width, the same words.
     let whole = CHANNEL.replace("LENGTH", "32").replace("WIDTH", "16");

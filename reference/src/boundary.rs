@@ -10,13 +10,14 @@
 //! | wall | half-way bounce-back, also moving | Ladd 1994, the paper's reference 7 |
 //! | velocity inlet | the same with the inlet's velocity | Ladd 1994; Krüger et al. 2017, ch. 5 |
 //! | pressure | anti-bounce-back | Ginzburg, Verhaeghe & d'Humières 2008; Krüger ch. 5 |
+//! | developed pressure | non-equilibrium extrapolation | Guo, Zheng & Shi, Chinese Phys. 11, 366 (2002) |
 //! | free slip | specular reflection, half-way | Krüger et al. 2017, ch. 5 |
 //! | free outflow | `f*_a` of the outermost cell: zero gradient | Krüger et al. 2017, ch. 5 |
 //!
 //! **Edges and corners.** A link that crosses a wall or an inlet is bounced back, whatever else it
 //! crosses, with the sum of the velocities of the walls and inlets that it crosses: so every face
 //! cell, at an edge too, lets in exactly `rho u_n` and a moving wall creates no mass. Failing that, a
-//! link that crosses a face of given pressure obeys it. Else each crossed face in turn wraps, mirrors
+//! link that crosses a face of given pressure obeys it, and then one that crosses a developed one. Else each crossed face in turn wraps, mirrors
 //! or clamps the place that the link comes from. Bounce-back acts on the node itself, so a mirror
 //! plane that meets a wall or an inlet gives exactly the flow of the whole, unmirrored box.
 
@@ -29,6 +30,7 @@ pub fn entering(domain: &Domain, post: &[Populations], x: [usize; 3], a: usize) 
     let here = &post[domain.index(x)];
     let mut wall_velocity: Option<Vec3> = None;
     let mut face_density: Option<f64> = None;
+    let mut developed_density: Option<f64> = None;
     let mut from = x;
     let mut direction = C[a];
     for axis in 0..3 {
@@ -50,12 +52,16 @@ pub fn entering(domain: &Domain, post: &[Populations], x: [usize; 3], a: usize) 
                 wall_velocity = Some(wall_velocity.unwrap_or_else(Vec3::zeros) + velocity);
             }
             Face::Pressure { density } => face_density = Some(density),
+            Face::DevelopedPressure { density } => developed_density = Some(density),
         }
     }
     match (wall_velocity, face_density) {
         (Some(velocity), _) => bounce_back(here, a, &velocity),
         (None, Some(density)) => anti_bounce_back(here, a, density),
-        (None, None) => post[domain.index(from)][number_of(direction)],
+        (None, None) => {
+            let (inside, a) = (&post[domain.index(from)], number_of(direction));
+            developed_density.map_or(inside[a], |density| carried_over(inside, a, density))
+        }
     }
 }
 
@@ -80,4 +86,19 @@ pub fn anti_bounce_back(post: &Populations, a: usize, rho_w: f64) -> f64 {
     let cu = c(a).dot(&u);
     // f_a(x, t+1) = -f*_-a(x, t) + 2 w_a ρ_w [1 + 9/2 (c_a·u)² - 3/2 u²]
     -post[OPPOSITE[a]] + 2.0 * W[a] * rho_w * (1.0 + 4.5 * cu * cu - 1.5 * u.dot(&u))
+}
+
+/// What a cell would send in from outside a face of density `rho_w` half a cell away if the flow did not change
+/// along the normal: its own populations at the density that is as far beyond the face's as its own is
+/// on this side of it. `post` is the outermost cell that the link would come from, clamped into the box.
+///
+/// Velocity and stress are those of that cell, so that Poiseuille flow passes as it is
+/// (`tests/oracle/boundaries.rs`).
+pub fn carried_over(post: &Populations, a: usize, rho_w: f64) -> f64 {
+    let rho = density(post);
+    let u = momentum(post) / rho;
+    let cu = c(a).dot(&u);
+    // f_a(x, t+1) = f*_a(x') + f_a^eq(2 ρ_w - ρ', u') - f_a^eq(ρ', u')
+    let f_eq_of_one = W[a] * (1.0 + 3.0 * cu + 4.5 * cu * cu - 1.5 * u.dot(&u));
+    post[a] + 2.0 * (rho_w - rho) * f_eq_of_one
 }

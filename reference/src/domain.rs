@@ -32,9 +32,22 @@ pub enum Face {
         /// Density at the face.
         density: f64,
     },
+    /// The same for a flow that does not change along the normal: shear stress is let through.
+    DevelopedPressure {
+        /// Density at the face.
+        density: f64,
+    },
 }
 
 impl Face {
+    /// The density that the face holds, if it holds one.
+    pub fn held_density(&self) -> Option<f64> {
+        match *self {
+            Face::Pressure { density } | Face::DevelopedPressure { density } => Some(density),
+            _ => None,
+        }
+    }
+
     /// A no-slip wall at rest.
     pub const fn wall() -> Self {
         Face::Wall { velocity: Vec3::new(0.0, 0.0, 0.0) }
@@ -240,7 +253,9 @@ fn check_faces(faces: &Faces) -> Result<(), DomainError> {
                 }
             }
             Face::VelocityInlet { velocity } => check_velocity(name, &velocity)?,
-            Face::Pressure { density } if !(density > 0.0 && density.is_finite()) => {
+            Face::Pressure { density } | Face::DevelopedPressure { density }
+                if !(density > 0.0 && density.is_finite()) =>
+            {
                 return Err(DomainError::BadValue {
                     face: name,
                     key: "density",
@@ -248,12 +263,16 @@ fn check_faces(faces: &Faces) -> Result<(), DomainError> {
                     and_positive: " and positive",
                 });
             }
-            Face::Periodic | Face::FreeSlip | Face::FreeOutflow | Face::Pressure { .. } => {}
+            Face::Periodic
+            | Face::FreeSlip
+            | Face::FreeOutflow
+            | Face::Pressure { .. }
+            | Face::DevelopedPressure { .. } => {}
         }
     }
     let inlet = any(|face| matches!(face, Face::VelocityInlet { .. }));
     let outflow = any(|face| matches!(face, Face::FreeOutflow));
-    let pressure = any(|face| matches!(face, Face::Pressure { .. }));
+    let pressure = any(|face| face.held_density().is_some());
     match (inlet, outflow, pressure) {
         (Some(face), None, None) => Err(DomainError::InletWithoutOutlet { face }),
         (None, Some(face), None) => Err(DomainError::OutflowWithoutInlet { face }),

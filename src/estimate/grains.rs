@@ -150,5 +150,5 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
 }
 
 fn is_sieve(face: &Face) -> bool {
-    matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow | Face::Pressure { .. })
+    matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow) || face.held_density().is_some()
 }

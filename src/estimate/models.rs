@@ -79,5 +79,6 @@ fn face_words(face: &Face) -> &'static str {
         Face::VelocityInlet { .. } => "velocity inlet, half-way bounce-back",
         Face::FreeOutflow => "free outflow, zero gradient",
         Face::Pressure { .. } => "pressure, anti-bounce-back",
+        Face::DevelopedPressure { .. } => "pressure, developed flow, non-equilibrium extrapolation",
     }
 }

@@ -7,6 +7,8 @@
 //!
 //! - a link that crosses walls or inlets is bounced back with the sum of their velocities;
 //! - else one that crosses a face of given pressure is bounced back with its sign turned;
+//! - else one that crosses a developed one takes what the cell inside that it would come from sends on, at the
+//!   density that is as far beyond the face's as that cell's is on this side;
 //! - else each crossed face in turn wraps (periodic), mirrors (free slip) or clamps (outflow) the place
 //!   that the link comes from.
 
@@ -103,7 +105,11 @@ pub(super) fn faces(domain: &Domain, layout: &Layout) -> String {
             rules += "\n";
         }
     }
-    let mut text = String::from("// What enters a cell along each direction.\n");
+    let mut text = String::new();
+    if rules.contains("carried_over(") {
+        text += CARRIED_OVER;
+    }
+    text += "// What enters a cell along each direction.\n";
     text += "fn entering(x: u32, y: u32, z: u32) -> array<f32, 19> {\n";
     text += "    var h = wrapped(x, y, z);\n";
     if !rules.is_empty() {
@@ -135,6 +141,18 @@ const NEIGHBOURS: &str = "    let xm = select(x - 1u, NX - 1u, x == 0u);
     let zp = STEP_Z * select(z + 1u, 0u, z == NZ - 1u);
 ";
 
+/// What a cell sends on beyond a face of density 1 + `drho_w`, along `c` of weight `w`; `f` is its own population.
+const CARRIED_OVER: &str = "
+fn carried_over(h: array<f32, 19>, f: f32, c: vec3<f32>, w: f32, drho_w: f32) -> f32 {
+    let drho = sum(h);
+    let u = momentum(h) / (1.0 + drho);
+    let cu = dot(c, u);
+    // f_a(x) = f*_a(x') + 2 (ρ_w - ρ') w_a [1 + 3 c_a·u' + 9/2 (c_a·u')² - 3/2 u'²]
+    return f + 2.0 * (drho_w - drho) * w * (1.0 + 3.0 * cu + 4.5 * cu * cu - 1.5 * dot(u, u));
+}
+
+";
+
 /// Whether a cell lies at the low and the high face of each axis.
 const AT_FACE: [[&str; 2]; 3] =
     [["x == 0u", "x == NX - 1u"], ["y == 0u", "y == NY - 1u"], ["z == 0u", "z == NZ - 1u"]];
@@ -146,6 +164,16 @@ fn place(axis: usize, c: i32) -> &'static str {
         1 => names[1],
         -1 => names[2],
         _ => names[0],
+    }
+}
+
+/// The coordinate of that cell along the axis.
+fn coordinate(axis: usize, c: i32) -> String {
+    let (x, n) = (["x", "y", "z"][axis], ["NX", "NY", "NZ"][axis]);
+    match c {
+        1 => format!("select({x} - 1u, {n} - 1u, {x} == 0u)"),
+        -1 => format!("select({x} + 1u, 0u, {x} == {n} - 1u)"),
+        _ => x.to_owned(),
     }
 }
 
@@ -183,7 +211,9 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
     let c = C[a].map(f64::from);
     let w = weight(a);
     let mut wall: Option<[f64; 3]> = None;
-    let mut pressure = None;
+    let (mut pressure, mut developed) = (None, None);
+    // Against which the cell lies that the link comes from.
+    let mut along = C[a];
     let mut from: [&str; 3] = std::array::from_fn(|axis| place(axis, C[a][axis]));
     let mut direction = C[a];
     let mut is_periodic = true;
@@ -194,9 +224,18 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
             Face::Periodic => {}
             Face::FreeSlip => {
                 from[axis] = place(axis, 0);
+                along[axis] = 0;
                 direction[axis] = -direction[axis];
             }
-            Face::FreeOutflow => from[axis] = place(axis, 0),
+            Face::FreeOutflow => {
+                from[axis] = place(axis, 0);
+                along[axis] = 0;
+            }
+            Face::DevelopedPressure { density } => {
+                from[axis] = place(axis, 0);
+                along[axis] = 0;
+                developed = Some(density);
+            }
             Face::Wall { velocity } | Face::VelocityInlet { velocity } => {
                 let sum = wall.get_or_insert([0.0; 3]);
                 (0..3).for_each(|i| sum[i] += velocity[i]);
@@ -232,7 +271,21 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
         }
         (None, None) => {
             let number = C.iter().position(|&known| known == direction).unwrap_or(a);
-            Rule { expression: old(layout, number, &from), needs_own: false }
+            let sent = old(layout, number, &from);
+            let expression = match developed {
+                None => sent,
+                Some(density) => {
+                    let [x, y, z]: [String; 3] =
+                        std::array::from_fn(|axis| coordinate(axis, along[axis]));
+                    let [cx, cy, cz] = direction.map(|c| literal(f64::from(c)));
+                    format!(
+                        "carried_over(own({x}, {y}, {z}), {sent}, vec3<f32>({cx}, {cy}, {cz}), {}, {})",
+                        literal(w),
+                        literal(density - 1.0)
+                    )
+                }
+            };
+            Rule { expression, needs_own: false }
         }
     })
 }

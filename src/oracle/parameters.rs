@@ -144,6 +144,9 @@ fn faces(domain: &Domain) -> Value {
                 }
                 Face::FreeOutflow => json!({ "kind": "free_outflow" }),
                 Face::Pressure { density } => json!({ "kind": "pressure", "density": density }),
+                Face::DevelopedPressure { density } => {
+                    json!({ "kind": "developed_pressure", "density": density })
+                }
             };
             faces.insert(FACE_NAMES[axis][side].to_owned(), face);
         }

@@ -157,7 +157,8 @@ fn walls(scene: &Scene) -> Result<Limit, String> {
     let domain = &scene.setup.domain;
     let faces = [0, 1, 2].map(|axis| domain.faces().axis(axis));
     let is_open = |face: &Face| {
-        matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow | Face::Pressure { .. })
+        matches!(face, Face::VelocityInlet { .. } | Face::FreeOutflow)
+            || face.held_density().is_some()
     };
     if faces.iter().flatten().any(is_open) {
         return Err("fluid enters or leaves through its faces, which changes a flow between walls by more than \

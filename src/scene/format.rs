@@ -182,6 +182,11 @@ pub struct FaceSection {
     pub velocity: Option<Triple>,
     /// Pressure above that of the fluid at its reference density, at a `pressure` face, Pa.
     pub pressure: Option<f64>,
+    /// At a `pressure` face: whether the flow there does not change along the normal (it is developed). Then the shear
+    /// stress of the cells inside is let through, and Poiseuille flow passes as it is; without it (the default) the
+    /// face lets no shear stress through, like the mouth of a jet, and a channel is shorter by a twentieth of its
+    /// width at each end.
+    pub developed: Option<bool>,
 }
 
 /// What happens at a face.

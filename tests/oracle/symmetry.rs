@@ -189,12 +189,14 @@ fn mixed_faces() -> Vec<Faces> {
     let lid = Face::Wall { velocity: Vec3::new(0.03, -0.02, 0.0) };
     let inlet = Face::VelocityInlet { velocity: Vec3::new(0.04, 0.01, -0.01) };
     let pressure = Face::Pressure { density: 1.01 };
+    let developed = Face::DevelopedPressure { density: 0.99 };
     vec![
         Faces::PERIODIC,
         Faces { x: [Face::wall(); 2], y: [Face::wall(); 2], z: [Face::wall(), lid] },
         Faces { x: [inlet, Face::FreeOutflow], y: [Face::Periodic; 2], z: [Face::wall(), lid] },
         Faces { x: [inlet, pressure], y: [Face::FreeSlip; 2], z: [Face::FreeSlip, Face::wall()] },
         Faces { x: [inlet, pressure], y: [Face::FreeSlip, Face::FreeOutflow], z: [pressure, lid] },
+        Faces { x: [inlet, developed], y: [Face::FreeSlip, developed], z: [pressure, lid] },
     ]
 }
 

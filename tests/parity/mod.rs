@@ -130,6 +130,7 @@ pub fn mixed_faces() -> Vec<Faces> {
     let side = Face::Wall { velocity: Vec3::new(0.0, 0.02, -0.01) };
     let inlet = Face::VelocityInlet { velocity: Vec3::new(0.04, 0.01, -0.01) };
     let [low, high] = [0.98, 1.01].map(|density| Face::Pressure { density });
+    let [through, on] = [0.99, 1.02].map(|density| Face::DevelopedPressure { density });
     let (slip, out, wall) = (Face::FreeSlip, Face::FreeOutflow, Face::wall());
     let periodic = [Face::Periodic; 2];
     vec![
@@ -141,6 +142,8 @@ pub fn mixed_faces() -> Vec<Faces> {
         Faces { x: [low, out], y: [high, slip], z: [out, low] },
         Faces { x: [slip, out], y: [out, slip], z: [inlet, out] },
         Faces { x: periodic, y: [slip, low], z: [high, slip] },
+        Faces { x: [through, on], y: [wall, slip], z: [out, low] },
+        Faces { x: [inlet, on], y: periodic, z: [slip, through] },
     ]
 }
 

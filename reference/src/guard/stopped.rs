@@ -254,7 +254,7 @@ fn drift(setup: &Setup, ratio: f64) -> Option<Cause> {
     }
     let faces = setup.domain.faces();
     let has = |wanted: fn(&Face) -> bool| (0..3).any(|axis| faces.axis(axis).iter().any(wanted));
-    let has_pressure = has(|face| matches!(face, Face::Pressure { .. }));
+    let has_pressure = has(|face| face.held_density().is_some());
     match strongest_inlet(setup).filter(|_| has_pressure) {
         // δρ/ρ = u/c_s, c_s = 1/√3
         Some((face, speed)) if (ratio - 1.0).abs() <= SOUND * 3.0_f64.sqrt() * speed => {
@@ -304,10 +304,8 @@ fn fastest_face(setup: &Setup) -> Option<(&'static str, f64)> {
 /// The speed that the pressures at the faces can drive, by Bernoulli.
 fn pressure_speed(setup: &Setup) -> Option<f64> {
     let faces = setup.domain.faces();
-    let densities = (0..3).flat_map(|axis| faces.axis(axis)).filter_map(|face| match face {
-        Face::Pressure { density } => Some(density),
-        _ => None,
-    });
+    let all = (0..3).flat_map(|axis| faces.axis(axis));
+    let densities = all.filter_map(|face| face.held_density());
     let (low, high) =
         densities.fold((f64::INFINITY, 0.0_f64), |(low, high), rho| (low.min(rho), high.max(rho)));
     // u = √(2 Δp/ρ),  p = ρ/3

@@ -21,8 +21,8 @@ const FEW: f64 = 0.05;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let domain = &scene.setup.domain;
-    let is_pressure = |face: &Face| matches!(face, Face::Pressure { .. });
-    let between = |axis: &usize| domain.faces().axis(*axis).iter().all(is_pressure);
+    let holds = |face: &Face| face.held_density().is_some();
+    let between = |axis: &usize| domain.faces().axis(*axis).iter().all(holds);
     if solid_fraction(scene) > FEW {
         return Vec::new();
     }
@@ -40,7 +40,10 @@ fn ends(scene: &Scene, axis: usize) -> Option<Warning> {
         (walls > 0).then_some(width)
     });
     let (width, length) = (narrowest.min()? as f64, domain.cells()[axis] as f64);
-    let lost = 2.0 * SHORTER * width / length;
+    let is_mouth = |face: &&Face| matches!(face, Face::Pressure { .. });
+    let faces = domain.faces().axis(axis);
+    let mouths = faces.iter().filter(is_mouth).count() as f64;
+    let lost = mouths * SHORTER * width / length;
     if lost < SMALL {
         return None;
     }
@@ -55,9 +58,10 @@ fn ends(scene: &Scene, axis: usize) -> Option<Warning> {
          channel shorter by about {SHORTER} of its width, which here means a {size} for the pressures given"
     );
     let remedy = format!(
-        "make the ends periodic and drive the flow by [body_force] (pressure difference over density and \
-         length), which is exact, or make the channel at least {:.0} cells long",
-        (2.0 * SHORTER * width / SMALL).ceil()
+        "say `developed = true` at both faces, which is exact where the flow does not change along the channel, or \
+         make the ends periodic and drive the flow by [body_force] (pressure difference over density and \
+         length), or make the channel at least {:.0} cells long",
+        (mouths * SHORTER * width / SMALL).ceil()
     );
     Some(warning(reason, remedy))
 }

@@ -10,7 +10,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let faces = scene.setup.domain.faces();
     let has = |wanted: fn(&Face) -> bool| (0..3).any(|axis| faces.axis(axis).iter().any(wanted));
     if has(|face| matches!(face, Face::VelocityInlet { .. }))
-        && !has(|face| matches!(face, Face::Pressure { .. }))
+        && !has(|face| face.held_density().is_some())
     {
         return vec![warning(
             "a velocity inlet with a free outflow leaves the mean density free",

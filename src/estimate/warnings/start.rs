@@ -17,7 +17,7 @@ const SMALL: f64 = 0.01;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let faces = scene.setup.domain.faces();
-    let is_pressure = |face: &Face| matches!(face, Face::Pressure { .. });
+    let is_pressure = |face: &Face| face.held_density().is_some();
     if !(0..3).any(|axis| faces.axis(axis).iter().any(is_pressure)) {
         return Vec::new();
     }

@@ -37,6 +37,9 @@ impl Model {
                     wall = Some(wall.unwrap_or_default() + velocity);
                 }
                 Face::Pressure { density } => pressure = Some(density),
+                Face::DevelopedPressure { .. } => {
+                    unreachable!("no problem of the kit has a developed pressure face")
+                }
             }
         }
         if let Some(velocity) = wall {

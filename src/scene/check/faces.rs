@@ -38,6 +38,7 @@ fn face(name: &str, section: &FaceSection, units: &Units) -> Result<Face, Troubl
     }
     if section.kind != FaceKind::Pressure {
         absent(&key("pressure"), section.pressure.as_ref(), "a face of kind `pressure`")?;
+        absent(&key("developed"), section.developed.as_ref(), "a face of kind `pressure`")?;
     }
     Ok(match section.kind {
         FaceKind::Periodic => Face::Periodic,
@@ -59,7 +60,11 @@ fn face(name: &str, section: &FaceSection, units: &Units) -> Result<Face, Troubl
             let remedy = "add `pressure` in Pa above the pressure of the fluid at rest, often 0";
             let si_pressure =
                 needed(&key("pressure"), section.pressure, "a pressure face needs it", remedy)?;
-            Face::Pressure { density: density(&key("pressure"), si_pressure, units)? }
+            let density = density(&key("pressure"), si_pressure, units)?;
+            match section.developed {
+                Some(true) => Face::DevelopedPressure { density },
+                Some(false) | None => Face::Pressure { density },
+            }
         }
     })
 }

@@ -160,9 +160,10 @@ fn planes(domain: &Domain, laws: &Laws, mirrored: &[[bool; 2]; 3]) -> Vec<Plane>
                 Face::FreeSlip if mirrored[axis][side] => continue,
                 Face::FreeSlip => (Vec3::zeros(), mirror(&laws.grains)),
                 Face::Wall { velocity } => (velocity, laws.walls),
-                Face::VelocityInlet { .. } | Face::FreeOutflow | Face::Pressure { .. } => {
-                    (Vec3::zeros(), laws.walls)
-                }
+                Face::VelocityInlet { .. }
+                | Face::FreeOutflow
+                | Face::Pressure { .. }
+                | Face::DevelopedPressure { .. } => (Vec3::zeros(), laws.walls),
             };
             let mut point = Vec3::zeros();
             let mut inward = Vec3::zeros();
