@@ -123,7 +123,7 @@ fn places_of(name: &str, here: &str) -> Vec<String> {
         for (key, inner) in node["properties"].as_object().into_iter().flatten() {
             let full = super::shape::join(&path, key);
             let indexed = here.split('[').next() == Some(path.trim_end_matches("[0]"));
-            if key == name && !(indexed && !path.is_empty()) {
+            if key == name && (!indexed || path.is_empty()) {
                 found.push(full.clone());
             }
             let (full, inner) = match Kind::of(schema(), inner) {

@@ -58,8 +58,8 @@ fn item(found: &Item, wanted: Kind, key: &str) -> Result<(), Misfit> {
             None => Err(no_section(found, node, key)),
         },
         (Kind::Sections(node), Item::ArrayOfTables(tables)) => {
-            let numbered = tables.iter().enumerate();
-            numbered.map(|(i, table)| section(table, node, &format!("{key}[{i}]"))).collect()
+            let mut numbered = tables.iter().enumerate();
+            numbered.try_for_each(|(i, table)| section(table, node, &format!("{key}[{i}]")))
         }
         (Kind::Sections(node), Item::Value(Value::Array(values))) => {
             for (i, value) in values.iter().enumerate() {

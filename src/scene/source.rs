@@ -48,37 +48,37 @@ impl Source {
     pub fn read<T: serde::de::DeserializeOwned>(&self) -> Result<T, Box<SceneError>> {
         shape::check(self.document.as_table()).map_err(|misfit| {
             let span = misfit.span.unwrap_or_else(|| self.span_of(&misfit.key));
-            self.error_at(misfit.key, span, misfit.problem, misfit.remedy)
+            self.error_at(&misfit.key, span, misfit.problem, misfit.remedy)
         })?;
         toml_edit::de::from_document(self.document.clone()).map_err(|error| {
             let remedy = "see `psmrt schema` for what a scene may hold".to_owned();
             let problem = quote::shown(error.message());
-            self.error_at(String::new(), error.span().unwrap_or(0..0), problem, remedy)
+            self.error_at("", error.span().unwrap_or(0..0), problem, remedy)
         })
     }
 
     /// The error for trouble with a key: looks up its place and its value.
     pub fn error(&self, trouble: Trouble) -> Box<SceneError> {
         let span = self.span_of(&trouble.key);
-        self.error_at(trouble.key, span, trouble.problem, trouble.remedy)
+        self.error_at(&trouble.key, span, trouble.problem, trouble.remedy)
     }
 
     fn error_at(
         &self,
-        key: String,
+        key: &str,
         span: Range<usize>,
         problem: String,
         remedy: String,
     ) -> Box<SceneError> {
         let line = self.text[..span.start].matches('\n').count() + 1;
         let value = quote::shown(self.text.get(span.clone()).unwrap_or(""));
-        let is_value = Path::parse(&key)
+        let is_value = Path::parse(key)
             .and_then(|path| path.walk(self.document.as_item()).cloned())
             .is_some_and(|item| item.is_value() && item.span().as_ref() == Some(&span));
         Box::new(SceneError {
             file: self.file.clone(),
             line: Some(line),
-            key: quote::shown(&key),
+            key: quote::shown(key),
             value: is_value.then_some(value),
             problem,
             remedy,

@@ -246,7 +246,12 @@ kind = "grain_means"
 name = "grains"
 kind = "grains"
 "#;
-    breaks(engine, "light_grain", &often(&scene([12, 12, 12], light)), "solid 0 moves");
+    breaks(
+        engine,
+        "light_grain",
+        &often(&scene([12, 12, 12], light)),
+        "times the density of the fluid",
+    );
 }
 
 /// The scene with every record taken at every step, and 200 steps.
