@@ -59,8 +59,8 @@ enum Command {
     /// Runs a scene
     #[command(after_help = "Ctrl-C saves the state; `psmrt resume` goes on from it.
 
-Exit codes: 0 done; 1 failed; 2 wrong scene or options; 3 at its limit and not steady (with `stop.steady`; the
-results are written all the same); 130 interrupted.
+Exit codes: 0 done; 1 failed; 2 wrong scene or options; 3 at its limit and not steady
+(with `stop.steady`; the results are written all the same); 130 interrupted.
 
 Examples:
   psmrt run golden/poiseuille/scene.toml
