@@ -20,7 +20,7 @@ use super::model::{GrainModel, Prediction, QUANTILE, ranges, unseen};
 pub struct LowModel {
     /// `ln b`, `n`, `r`, and what they leave.
     pub fit: Fit,
-    /// Scatter of the logarithm of the velocity in geometries left out of the fit, over [`spread`].
+    /// Scatter of the logarithm of the velocity in geometries left out of the fit, over `spread`.
     pub scatter: f64,
     /// Number of runs, and of geometries.
     pub counts: [usize; 2],
@@ -64,7 +64,7 @@ impl LowModel {
         Some(LowModel { fit: through(&own)?, scatter, counts, ranges: ranges(&own) })
     }
 
-    /// Half of the band over [`spread`].
+    /// Half of the band over `spread`.
     pub fn share(&self) -> f64 {
         QUANTILE * self.scatter
     }
