@@ -17,7 +17,7 @@
 //! | [`packing`] | numbers and sizes of grains to pack |
 //! | [`tradeoff`] | speed for accuracy, measured |
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
-//! | [`oracle`] | problems for other people's kernels, a verdict and a diagnosis back |
+//! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
 //! | [`stability`] | where the method survives and where it is right |
 //! | [`input`] | reading of files that the user names |
 //! | [`quote`] | how the user's text stands in messages |
@@ -30,6 +30,7 @@
 pub mod cases;
 pub mod checkpoint;
 pub mod command;
+pub mod conformance;
 pub mod courses;
 pub mod engine;
 pub mod estimate;
@@ -37,7 +38,6 @@ pub mod exact;
 pub mod input;
 pub mod kernel;
 pub mod machine;
-pub mod oracle;
 pub mod output;
 pub mod packing;
 pub mod plan;

@@ -10,8 +10,8 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
+use psmrt::command::conformance::ConformanceCommand;
 use psmrt::command::golden::GoldenCommand;
-use psmrt::command::oracle::OracleCommand;
 use psmrt::command::pack::PackRequest;
 use psmrt::command::plan::{PlanRequest, Wanted};
 use psmrt::command::report::ReportRequest;
@@ -101,10 +101,16 @@ Example:
   psmrt pack --size 1e-3,1e-3,1e-3 --count 1000 --porosity 0.4 --out packing.csv
   psmrt pack --bed --size 1e-3,1e-3 --diameter 1e-4 --count 500 --walls --out bed.csv")]
     Pack(PackRequest),
-    /// Problems for other people's kernels, a verdict and a diagnosis back
+    /// Problems for other people's kernels, and a verdict and diagnosis of their answers
+    Conformance {
+        #[command(subcommand)]
+        command: ConformanceCommand,
+    },
+    /// The former name of `conformance`, for scripts that use it
+    #[command(hide = true)]
     Oracle {
         #[command(subcommand)]
-        command: OracleCommand,
+        command: ConformanceCommand,
     },
     /// Measures all cases, judges them and draws them on one page
     #[command(after_help = "Examples:
@@ -230,7 +236,11 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
             command::plan::plan(&PlanRequest { scene, set, error, write, json })
         }
         Command::Tradeoff(request) => command::tradeoff::tradeoff(&request, json),
-        Command::Oracle { command } => command::oracle::oracle(&command, json),
+        Command::Conformance { command } => command::conformance::conformance(&command, json),
+        Command::Oracle { command } => {
+            tell("psmrt oracle is now called psmrt conformance; it takes the same arguments");
+            command::conformance::conformance(&command, json)
+        }
         Command::Info => {
             command::info::info(json);
             Ok(())

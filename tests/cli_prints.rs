@@ -41,7 +41,7 @@ fn commands_end_as_they_should_where_nobody_reads() {
             (&["completions", "bash"] as &[&str], 0),
             (&["schema"], 0),
             (&["info", "--json"], 0),
-            (&["oracle", "mistakes"], 0),
+            (&["conformance", "mistakes"], 0),
             (&["check", "/nowhere"], 2),
             (&["check", "/nowhere", "--json"], 2),
             (&["resume", "/nowhere"], 2),

@@ -10,7 +10,7 @@ use std::process::{Command, ExitCode};
 
 use conformance::{numpy_candidate, run, sources, verdict, with_kit};
 use libtest_mimic::{Arguments, Failed, Trial};
-use psmrt::oracle::kit::Kit;
+use psmrt::conformance::kit::Kit;
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();

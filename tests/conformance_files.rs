@@ -7,15 +7,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use cli::{Folder, psmrt, stderr, stdout};
-use psmrt::oracle::KIT_VERSION;
-use psmrt::oracle::checksums::{agree, parse, rows};
-use psmrt::oracle::files::files;
-use psmrt::oracle::kit::Kit;
+use psmrt::conformance::KIT_VERSION;
+use psmrt::conformance::checksums::{agree, parse, rows};
+use psmrt::conformance::files::files;
+use psmrt::conformance::kit::Kit;
 use serde_json::Value;
 
 fn export(folder: &Folder, name: &str) -> PathBuf {
     let kit = folder.path(name);
-    let output = psmrt(&["oracle", "export", "--out", kit.to_str().unwrap()]);
+    let output = psmrt(&["conformance", "export", "--out", kit.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));
     kit
 }
@@ -35,7 +35,8 @@ fn candidate(folder: &Folder, kit: &Path) -> PathBuf {
 }
 
 fn check(kit: &Path, candidate: &Path) -> (Option<i32>, String, String) {
-    let output = psmrt(&["oracle", "check", kit.to_str().unwrap(), candidate.to_str().unwrap()]);
+    let output =
+        psmrt(&["conformance", "check", kit.to_str().unwrap(), candidate.to_str().unwrap()]);
     (output.status.code(), stdout(&output), stderr(&output))
 }
 
@@ -51,7 +52,7 @@ fn two_exports_have_the_same_bytes_and_are_small() {
 fn kit_is_the_committed_one_or_has_another_version() {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden/conformance/checksums.csv");
     let (version, committed) = parse(&fs::read_to_string(golden).unwrap()).unwrap();
-    let remedy = "a change of any value of the kit needs a higher KIT_VERSION (src/oracle/mod.rs) and \
+    let remedy = "a change of any value of the kit needs a higher KIT_VERSION (src/conformance/mod.rs) and \
                   new checksums (golden/conformance/README.md)";
     assert_eq!(version, KIT_VERSION, "{remedy}");
     let kit = Kit::make().unwrap();
@@ -116,10 +117,10 @@ fn manifest_keeps_its_schema_and_lists_every_file() {
 
 #[test]
 fn nothing_is_overwritten() {
-    let folder = Folder::new("oracle_overwrite");
+    let folder = Folder::new("kit_overwrite");
     folder.write("mine.txt", "mine");
     let path = folder.path("");
-    let output = psmrt(&["oracle", "export", "--out", path.to_str().unwrap()]);
+    let output = psmrt(&["conformance", "export", "--out", path.to_str().unwrap()]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("is not empty: name another folder with --out"), "{output:?}");
     assert_eq!(folder.entries(), ["mine.txt"]);
@@ -127,7 +128,7 @@ fn nothing_is_overwritten() {
 
 #[test]
 fn check_exits_with_0_1_or_2_and_prints_one_json_object_on_request() {
-    let folder = Folder::new("oracle_check");
+    let folder = Folder::new("kit_check");
     let kit = export(&folder, "kit");
     let candidate = candidate(&folder, &kit);
     let (code, text, _) = check(&kit, &candidate);
@@ -143,7 +144,7 @@ fn check_exits_with_0_1_or_2_and_prints_one_json_object_on_request() {
     assert_eq!(code, Some(1), "{text}");
     assert!(text.contains("weights/weight: error") && text.contains("only at cell 24"), "{text}");
     let paths = [kit.to_str().unwrap(), candidate.to_str().unwrap()];
-    let output = psmrt(&["oracle", "check", paths[0], paths[1], "--json"]);
+    let output = psmrt(&["conformance", "check", paths[0], paths[1], "--json"]);
     assert_eq!(output.status.code(), Some(1));
     let json: Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert_eq!((&json["passed"], &json["precision"]), (&false.into(), &"f32".into()));
@@ -151,10 +152,21 @@ fn check_exits_with_0_1_or_2_and_prints_one_json_object_on_request() {
 }
 
 #[test]
+fn former_name_of_the_command_still_works_and_tells_the_new_one() {
+    let (now, before) = (psmrt(&["conformance", "mistakes"]), psmrt(&["oracle", "mistakes"]));
+    assert_eq!((now.status.code(), before.status.code()), (Some(0), Some(0)), "{before:?}");
+    assert_eq!(stdout(&now), stdout(&before), "both names print the same");
+    assert!(stderr(&now).is_empty(), "{now:?}");
+    let hint = stderr(&before);
+    assert!(hint.lines().count() == 1 && hint.contains("psmrt conformance"), "{hint}");
+}
+
+#[test]
 fn kits_compare_within_the_bound_and_name_the_file_beyond_it() {
-    let folder = Folder::new("oracle_compare");
+    let folder = Folder::new("kit_compare");
     let (one, two) = (export(&folder, "one"), export(&folder, "two"));
-    let compare = || psmrt(&["oracle", "compare", one.to_str().unwrap(), two.to_str().unwrap()]);
+    let compare =
+        || psmrt(&["conformance", "compare", one.to_str().unwrap(), two.to_str().unwrap()]);
     assert!(stdout(&compare()).contains("largest difference 0.00"));
     let file = two.join("problems/mrt/expected/post.npy");
     let mut bytes = fs::read(&file).unwrap();
@@ -177,7 +189,7 @@ fn kits_compare_within_the_bound_and_name_the_file_beyond_it() {
 
 #[test]
 fn bad_folders_are_refused_with_file_problem_and_remedy() {
-    let folder = Folder::new("oracle_bad");
+    let folder = Folder::new("kit_bad");
     let kit = export(&folder, "kit");
     let candidate = candidate(&folder, &kit);
     let manifest = candidate.join("manifest.json");
@@ -217,7 +229,7 @@ fn bad_folders_are_refused_with_file_problem_and_remedy() {
 
 #[test]
 fn answers_that_cannot_be_used_are_wrong_with_their_reason() {
-    let folder = Folder::new("oracle_unusable");
+    let folder = Folder::new("kit_unusable");
     let kit = export(&folder, "kit");
     let candidate = candidate(&folder, &kit);
     let file = candidate.join("weights/weight.npy");
@@ -278,7 +290,7 @@ fn answers_that_cannot_be_used_are_wrong_with_their_reason() {
 
 #[test]
 fn arrays_of_every_kind_that_numpy_writes_are_read() {
-    use psmrt::oracle::npy::read;
+    use psmrt::conformance::npy::read;
     let npy = |descr: &str, fortran: &str, shape: &str, values: &[u8]| {
         let mut header =
             format!("{{'descr': '{descr}', 'fortran_order': {fortran}, 'shape': {shape}, }}")
@@ -297,7 +309,7 @@ fn arrays_of_every_kind_that_numpy_writes_are_read() {
     assert_eq!(found, [1.0, -2.0, 2.0_f64.powi(-24), 65504.0, f64::INFINITY]);
     let single: Vec<u8> = [0.5_f32, -3.0].iter().flat_map(|value| value.to_le_bytes()).collect();
     assert_eq!(npy("<f4", "False", "(2,)", &single).values, [0.5, -3.0]);
-    assert_eq!(npy("|i1", "False", "()", &[0xff]), psmrt::oracle::Array::number(-1.0));
+    assert_eq!(npy("|i1", "False", "()", &[0xff]), psmrt::conformance::Array::number(-1.0));
     // Two rows of three, column by column.
     let turned = npy("|u1", "True", "(2, 3)", &[1, 4, 2, 5, 3, 6]);
     assert_eq!((turned.shape, turned.values), (vec![2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));

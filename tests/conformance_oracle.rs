@@ -4,13 +4,13 @@
 mod common;
 
 use common::Budget;
-use psmrt::oracle::judge::{Judged, LIMIT, Submission, judge_submission};
-use psmrt::oracle::kit::Kit;
-use psmrt::oracle::mistakes::CATALOGUE;
-use psmrt::oracle::model::Model;
-use psmrt::oracle::reference::Oracle;
-use psmrt::oracle::task::{Collisions, Scene, SceneOutcome, States, Streaming, Task};
-use psmrt::oracle::{Answers, Candidate, DirectionOrder, Outcome, Precision, judge};
+use psmrt::conformance::judge::{Judged, LIMIT, Submission, judge_submission};
+use psmrt::conformance::kit::Kit;
+use psmrt::conformance::mistakes::CATALOGUE;
+use psmrt::conformance::model::Model;
+use psmrt::conformance::reference::Oracle;
+use psmrt::conformance::task::{Collisions, Scene, SceneOutcome, States, Streaming, Task};
+use psmrt::conformance::{Answers, Candidate, DirectionOrder, Outcome, Precision, judge};
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::lattice::Populations;
 use psmrt_reference::solver::Solver;
@@ -188,7 +188,7 @@ impl Candidate for Backwards {
         DirectionOrder::new(&directions).unwrap()
     }
 
-    fn constants(&mut self, problem: &psmrt::oracle::task::Constants) -> Option<Answers> {
+    fn constants(&mut self, problem: &psmrt::conformance::task::Constants) -> Option<Answers> {
         let Answers(mut answers) = Oracle.constants(problem)?;
         for (name, array) in &mut answers {
             match name.as_str() {
@@ -322,8 +322,8 @@ fn wrong_shapes_and_names_from_an_engine_are_a_verdict_with_its_reason() {
         fn name(&self) -> String {
             "careless".to_owned()
         }
-        fn weights(&mut self, _: &psmrt::oracle::task::SolidCells) -> Option<Answers> {
-            let array = psmrt::oracle::Array::number(1.0);
+        fn weights(&mut self, _: &psmrt::conformance::task::SolidCells) -> Option<Answers> {
+            let array = psmrt::conformance::Array::number(1.0);
             Some(Answers::new().with("weight", array.clone()).with("wieght", array))
         }
     }
@@ -344,7 +344,7 @@ fn wrong_shapes_and_names_from_an_engine_are_a_verdict_with_its_reason() {
 
 #[test]
 fn model_of_the_diagnosis_shares_no_arithmetic_with_the_reference() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/oracle/model");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/conformance/model");
     let mut files = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

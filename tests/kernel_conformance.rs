@@ -8,12 +8,12 @@ mod trials;
 use std::process::ExitCode;
 
 use common::Budget;
+use psmrt::conformance::folder::{read, write};
+use psmrt::conformance::judge::{Submission, judge_submission};
+use psmrt::conformance::kit::Kit;
+use psmrt::conformance::task::{Collisions, Scene, SceneOutcome, Spheres, Streaming, Task};
+use psmrt::conformance::{Answers, Array, Candidate, Precision, judge};
 use psmrt::kernel::{Kernel, solid_fraction};
-use psmrt::oracle::folder::{read, write};
-use psmrt::oracle::judge::{Submission, judge_submission};
-use psmrt::oracle::kit::Kit;
-use psmrt::oracle::task::{Collisions, Scene, SceneOutcome, Spheres, Streaming, Task};
-use psmrt::oracle::{Answers, Array, Candidate, Precision, judge};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::{Domain, Faces};

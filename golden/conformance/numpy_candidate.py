@@ -5,7 +5,7 @@
 
 Reads the problems of KIT and writes answers to OUT. It is a third opinion on the oracle, an example for
 your own candidate, and, with --mistake, the patient on which the judge's diagnosis is tested: each name
-of `psmrt oracle mistakes` plants that one mistake; for several names, with commas between them, it answers
+of `psmrt conformance mistakes` plants that one mistake; for several names, with commas between them, it answers
 once for each. Answers with a mistake go to OUT/NAME. Cells are the first axis of all arrays, directions
 the last.
 """

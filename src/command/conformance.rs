@@ -1,4 +1,4 @@
-//! `psmrt oracle`: the conformance kit out, a verdict on a candidate's answers back.
+//! `psmrt conformance`: the conformance kit out, a verdict on a candidate's answers back.
 
 use std::path::{Path, PathBuf};
 
@@ -7,21 +7,21 @@ use serde_json::json;
 
 use super::CommandError;
 use super::say::say;
-use crate::oracle::files::{compare_folders, export, verify};
-use crate::oracle::folder;
-use crate::oracle::judge::judge_submission;
-use crate::oracle::kit::Kit;
-use crate::oracle::mistakes::CATALOGUE;
+use crate::conformance::files::{compare_folders, export, verify};
+use crate::conformance::folder;
+use crate::conformance::judge::judge_submission;
+use crate::conformance::kit::Kit;
+use crate::conformance::mistakes::CATALOGUE;
 
-/// What can be asked of the oracle.
+/// What can be done with the conformance kit.
 #[derive(Clone, Debug, Subcommand)]
-pub enum OracleCommand {
+pub enum ConformanceCommand {
     /// Writes the conformance kit: problems, expected answers, and how to answer
     #[command(
         after_help = "Start with kit/README.md: all that it needs is NumPy, or nothing but C.
 
 Example:
-  psmrt oracle export --out kit"
+  psmrt conformance export --out kit"
     )]
     Export {
         /// Folder for the kit, empty or absent
@@ -34,7 +34,7 @@ Example:
 cannot be used.
 
 Example:
-  psmrt oracle check kit candidate"
+  psmrt conformance check kit candidate"
     )]
     Check {
         /// Folder of the kit
@@ -44,7 +44,7 @@ Example:
     },
     /// Compares two kits, made on different machines perhaps
     #[command(after_help = "Example:
-  psmrt oracle compare kit kit_from_elsewhere")]
+  psmrt conformance compare kit kit_from_elsewhere")]
     Compare {
         /// Folder of a kit
         kit: PathBuf,
@@ -56,9 +56,9 @@ Example:
 }
 
 /// Does it.
-pub fn oracle(command: &OracleCommand, json: bool) -> Result<(), CommandError> {
+pub fn conformance(command: &ConformanceCommand, json: bool) -> Result<(), CommandError> {
     match command {
-        OracleCommand::Export { out } => {
+        ConformanceCommand::Export { out } => {
             let (files, bytes) = export(out)?;
             if json {
                 say(
@@ -69,13 +69,13 @@ pub fn oracle(command: &OracleCommand, json: bool) -> Result<(), CommandError> {
                 let folder = out.display();
                 say(&format!("{files} files, {:.1} MB, in {folder}", bytes as f64 / 1e6));
                 say(&format!(
-                    "read {folder}/README.md; judge answers with `psmrt oracle check {folder} DIR`"
+                    "read {folder}/README.md; judge answers with `psmrt conformance check {folder} DIR`"
                 ));
             }
             Ok(())
         }
-        OracleCommand::Check { kit, candidate } => check(kit, candidate, json),
-        OracleCommand::Compare { kit, other } => {
+        ConformanceCommand::Check { kit, candidate } => check(kit, candidate, json),
+        ConformanceCommand::Compare { kit, other } => {
             let largest = compare_folders(kit, other)?;
             if json {
                 say(&json!({ "same": true, "largest_difference": largest }).to_string());
@@ -86,7 +86,7 @@ pub fn oracle(command: &OracleCommand, json: bool) -> Result<(), CommandError> {
             }
             Ok(())
         }
-        OracleCommand::Mistakes => {
+        ConformanceCommand::Mistakes => {
             mistakes(json);
             Ok(())
         }
@@ -94,7 +94,7 @@ pub fn oracle(command: &OracleCommand, json: bool) -> Result<(), CommandError> {
 }
 
 fn check(kit_folder: &Path, candidate: &Path, json: bool) -> Result<(), CommandError> {
-    let kit = Kit::make().map_err(crate::oracle::files::FilesError::from)?;
+    let kit = Kit::make().map_err(crate::conformance::files::FilesError::from)?;
     verify(&kit, kit_folder)?;
     let submission = folder::read(&kit, candidate)?;
     let verdict = judge_submission(&kit, &submission);

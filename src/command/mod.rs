@@ -2,11 +2,11 @@
 
 pub mod check;
 mod comparison;
+pub mod conformance;
 mod environment;
 mod execute;
 pub mod golden;
 pub mod info;
-pub mod oracle;
 pub mod pack;
 pub mod plan;
 mod plan_text;
@@ -27,10 +27,10 @@ use thiserror::Error;
 
 use crate::cases::CaseError;
 use crate::checkpoint::CheckpointError;
+use crate::conformance::files::FilesError;
 use crate::engine::{Engine, KernelEngine, ReferenceEngine, StartError};
 use crate::estimate::memory;
 use crate::kernel::{Gpu, KernelError, adapters};
-use crate::oracle::files::FilesError;
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
@@ -88,7 +88,7 @@ pub enum CommandError {
     },
     /// The folder of a kit or of a candidate cannot be used.
     #[error(transparent)]
-    Oracle(#[from] FilesError),
+    Conformance(#[from] FilesError),
     /// A candidate's folder without a single answer.
     #[error(
         "{folder} has no answers: put them at {folder}/PROBLEM/ANSWER.npy, as the kit's README says"
@@ -137,7 +137,7 @@ impl CommandError {
             | CommandError::Folder(_)
             | CommandError::Resume(_)
             | CommandError::Usage(_)
-            | CommandError::Oracle(_)
+            | CommandError::Conformance(_)
             | CommandError::NoAnswers { .. }
             | CommandError::Table { .. }
             | CommandError::Checkpoint { .. } => 2,

@@ -18,8 +18,8 @@ use super::task::{
 /// shape is a verdict with its reason, not a panic.
 ///
 /// ```
-/// use psmrt::oracle::{Answers, Array, Candidate, Precision, judge};
-/// use psmrt::oracle::task::SolidCells;
+/// use psmrt::conformance::{Answers, Array, Candidate, Precision, judge};
+/// use psmrt::conformance::task::SolidCells;
 ///
 /// /// An engine in single precision that knows nothing yet but the weight of a solid.
 /// struct MyEngine;

@@ -70,7 +70,7 @@ fn projection(values: &[f64]) -> f64 {
 
 /// The table as the kit holds it: CSV, its first line a comment with the version.
 pub(super) fn table(kit: &Kit, files: &BTreeMap<String, Vec<u8>>) -> String {
-    let mut table = format!("# kit version {KIT_VERSION}, made by `psmrt oracle export`\n");
+    let mut table = format!("# kit version {KIT_VERSION}, made by `psmrt conformance export`\n");
     table.push_str("file,sha256,projection,gauge\n");
     for Row { file, sha256, projection, gauge } in rows(kit, files) {
         let projection = projection.map_or_else(String::new, |value| format!("{value:e}"));

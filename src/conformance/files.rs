@@ -63,7 +63,7 @@ impl FilesError {
 }
 
 /// What to do about a kit that is not as it should be.
-const EXPORT_ANEW: &str = "export the kit anew with `psmrt oracle export`";
+const EXPORT_ANEW: &str = "export the kit anew with `psmrt conformance export`";
 
 /// All files of the kit: path in its folder, and contents. The same kit gives the same bytes.
 pub fn files(kit: &Kit) -> BTreeMap<String, Vec<u8>> {
@@ -172,7 +172,7 @@ pub fn read_manifest(folder: &Path) -> Result<Manifest, FilesError> {
         return Err(FilesError::bad(
             &path,
             &problem,
-            "name the folder that `psmrt oracle export` made",
+            "name the folder that `psmrt conformance export` made",
         ));
     }
     if found["kit_version"] != KIT_VERSION {

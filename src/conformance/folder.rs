@@ -54,7 +54,7 @@ pub fn read(kit: &Kit, folder: &Path) -> Result<Submission, FilesError> {
 }
 
 /// Writes the answers of an engine into `folder`, which must be empty or absent, as [`read`] and `psmrt
-/// oracle check` take them. Answers that cannot be read are left out.
+/// conformance check` take them. Answers that cannot be read are left out.
 pub fn write(kit: &Kit, submission: &Submission, folder: &Path) -> Result<(), FilesError> {
     let manifest = CandidateManifest {
         name: submission.name.clone(),

@@ -1,4 +1,4 @@
-//! The oracle for everyone else's kernels: problems out, a verdict and a diagnosis back.
+//! The conformance kit: problems for other people's kernels, a verdict and a diagnosis of their answers.
 //!
 //! | module | what it does |
 //! |---|---|

@@ -6,10 +6,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use psmrt::oracle::Verdict;
-use psmrt::oracle::judge::judge_submission;
-use psmrt::oracle::kit::Kit;
-use psmrt::oracle::mistakes::CATALOGUE;
+use psmrt::conformance::Verdict;
+use psmrt::conformance::judge::judge_submission;
+use psmrt::conformance::kit::Kit;
+use psmrt::conformance::mistakes::CATALOGUE;
 
 /// The folder of the candidates.
 pub fn sources() -> PathBuf {
@@ -37,7 +37,7 @@ pub fn compiler_missing() -> Option<&'static str> {
 pub fn with_kit(parent: &Path, name: &str) -> PathBuf {
     let folder = parent.join(format!("{name}_{}", std::process::id()));
     let _ = fs::remove_dir_all(&folder);
-    psmrt::oracle::files::export(&folder.join("kit")).expect("the kit is written");
+    psmrt::conformance::files::export(&folder.join("kit")).expect("the kit is written");
     folder
 }
 
@@ -58,7 +58,8 @@ pub fn numpy_candidate(kit: &Path, out: &Path, options: &[&str]) -> Command {
 
 /// The verdict on the answers in a folder.
 pub fn verdict(kit: &Kit, folder: &Path) -> Verdict {
-    let submission = psmrt::oracle::folder::read(kit, folder).expect("the answers can be read");
+    let submission =
+        psmrt::conformance::folder::read(kit, folder).expect("the answers can be read");
     judge_submission(kit, &submission)
 }
 
