@@ -142,7 +142,8 @@ fn closed(face: &Face) -> Option<&'static str> {
         Face::Periodic
         | Face::FreeOutflow
         | Face::Pressure { .. }
-        | Face::DevelopedPressure { .. } => None,
+        | Face::DevelopedPressure { .. }
+        | Face::NonReflectingPressure { .. } => None,
     }
 }
 

@@ -11,40 +11,49 @@
 //! | velocity inlet | the same with the inlet's velocity | Ladd 1994; Krüger et al. 2017, ch. 5 |
 //! | pressure | anti-bounce-back | Ginzburg, Verhaeghe & d'Humières 2008; Krüger ch. 5 |
 //! | developed pressure | non-equilibrium extrapolation | Guo, Zheng & Shi, Chinese Phys. 11, 366 (2002) |
+//! | non-reflecting pressure | the same, the density following the wave that arrives | [`crate::non_reflecting`] |
 //! | free slip | specular reflection, half-way | Krüger et al. 2017, ch. 5 |
 //! | free outflow | `f*_a` of the outermost cell: zero gradient | Krüger et al. 2017, ch. 5 |
 //!
 //! **Edges and corners.** A link that crosses a wall or an inlet is bounced back, whatever else it
 //! crosses, with the sum of the velocities of the walls and inlets that it crosses: so every face
 //! cell, at an edge too, lets in exactly `rho u_n` and a moving wall creates no mass. Failing that, a
-//! link that crosses a face of given pressure obeys it, and then one that crosses a developed one. Else each crossed face in turn wraps, mirrors
-//! or clamps the place that the link comes from. Bounce-back acts on the node itself, so a mirror
+//! link that crosses a face of given pressure obeys it, and then one that crosses a developed or non-reflecting one.
+//! Else each crossed face in turn wraps, mirrors or clamps the place that the link comes from. Bounce-back acts on the node itself, so a mirror
 //! plane that meets a wall or an inlet gives exactly the flow of the whole, unmirrored box.
 
 use crate::directions::{C, OPPOSITE, number_of};
 use crate::domain::{Domain, Face};
 use crate::lattice::{CS2, Populations, Vec3, W, c, density, momentum};
+use crate::non_reflecting::SlowMeans;
 
 /// The population that enters cell `x` along direction `a` when `x - c_a` lies outside the box.
-pub fn entering(domain: &Domain, post: &[Populations], x: [usize; 3], a: usize) -> f64 {
+pub fn entering(
+    domain: &Domain,
+    slow_means: &SlowMeans,
+    post: &[Populations],
+    x: [usize; 3],
+    a: usize,
+) -> f64 {
     let here = &post[domain.index(x)];
     let mut wall_velocity: Option<Vec3> = None;
     let mut face_density: Option<f64> = None;
     let mut developed_density: Option<f64> = None;
+    // Axis and side of the face whose density follows the wave that arrives.
+    let mut follows: Option<(usize, usize)> = None;
     let mut from = x;
     let mut direction = C[a];
     for axis in 0..3 {
         let last = domain.cells()[axis] - 1;
-        let [low, high] = domain.faces().axis(axis);
-        let crossed = match C[a][axis] {
-            1 if x[axis] == 0 => low,
-            -1 if x[axis] == last => high,
+        let side = match C[a][axis] {
+            1 if x[axis] == 0 => 0,
+            -1 if x[axis] == last => 1,
             along => {
                 from[axis] = x[axis].wrapping_add_signed(-along as isize);
                 continue;
             }
         };
-        match crossed {
+        match domain.faces().axis(axis)[side] {
             Face::Periodic => from[axis] = last - x[axis],
             Face::FreeSlip => direction[axis] = -direction[axis],
             Face::FreeOutflow => {}
@@ -52,7 +61,12 @@ pub fn entering(domain: &Domain, post: &[Populations], x: [usize; 3], a: usize) 
                 wall_velocity = Some(wall_velocity.unwrap_or_else(Vec3::zeros) + velocity);
             }
             Face::Pressure { density } => face_density = Some(density),
-            Face::DevelopedPressure { density } => developed_density = Some(density),
+            Face::DevelopedPressure { density } => {
+                (developed_density, follows) = (Some(density), None);
+            }
+            Face::NonReflectingPressure { density, .. } => {
+                (developed_density, follows) = (Some(density), Some((axis, side)));
+            }
         }
     }
     match (wall_velocity, face_density) {
@@ -60,7 +74,12 @@ pub fn entering(domain: &Domain, post: &[Populations], x: [usize; 3], a: usize) 
         (None, Some(density)) => anti_bounce_back(here, a, density),
         (None, None) => {
             let (inside, a) = (&post[domain.index(from)], number_of(direction));
-            developed_density.map_or(inside[a], |density| carried_over(inside, a, density))
+            developed_density.map_or(inside[a], |density| {
+                let rho_w = follows.map_or(density, |face| {
+                    slow_means.face_density(domain, face, density, from, inside)
+                });
+                carried_over(inside, a, rho_w)
+            })
         }
     }
 }

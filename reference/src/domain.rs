@@ -37,13 +37,22 @@ pub enum Face {
         /// Density at the face.
         density: f64,
     },
+    /// The same, and sound leaves through it: for a while the density at the face follows the wave that arrives.
+    NonReflectingPressure {
+        /// Density at the face over times longer than `memory`.
+        density: f64,
+        /// Steps over which the face holds `density` again, at least 1.
+        memory: f64,
+    },
 }
 
 impl Face {
     /// The density that the face holds, if it holds one.
     pub fn held_density(&self) -> Option<f64> {
         match *self {
-            Face::Pressure { density } | Face::DevelopedPressure { density } => Some(density),
+            Face::Pressure { density }
+            | Face::DevelopedPressure { density }
+            | Face::NonReflectingPressure { density, .. } => Some(density),
             _ => None,
         }
     }
@@ -115,7 +124,7 @@ pub enum DomainError {
         /// Component of the velocity along the axis.
         normal: f64,
     },
-    /// A velocity or density that is not a number, or a density that is not positive.
+    /// A velocity, density or memory that is not a number, or a density or memory that is too small.
     #[error("face {face} has {key} = {value}: it must be finite{and_positive}")]
     BadValue {
         /// The face.
@@ -124,7 +133,7 @@ pub enum DomainError {
         key: &'static str,
         /// The value as given.
         value: f64,
-        /// " and positive" where that is asked.
+        /// What is asked of it besides, for example " and positive".
         and_positive: &'static str,
     },
     /// Fluid enters and cannot leave, or the reverse.
@@ -253,7 +262,9 @@ fn check_faces(faces: &Faces) -> Result<(), DomainError> {
                 }
             }
             Face::VelocityInlet { velocity } => check_velocity(name, &velocity)?,
-            Face::Pressure { density } | Face::DevelopedPressure { density }
+            Face::Pressure { density }
+            | Face::DevelopedPressure { density }
+            | Face::NonReflectingPressure { density, .. }
                 if !(density > 0.0 && density.is_finite()) =>
             {
                 return Err(DomainError::BadValue {
@@ -263,11 +274,22 @@ fn check_faces(faces: &Faces) -> Result<(), DomainError> {
                     and_positive: " and positive",
                 });
             }
+            Face::NonReflectingPressure { memory, .. }
+                if !(1.0..f64::INFINITY).contains(&memory) =>
+            {
+                return Err(DomainError::BadValue {
+                    face: name,
+                    key: "memory",
+                    value: memory,
+                    and_positive: " and at least 1 step",
+                });
+            }
             Face::Periodic
             | Face::FreeSlip
             | Face::FreeOutflow
             | Face::Pressure { .. }
-            | Face::DevelopedPressure { .. } => {}
+            | Face::DevelopedPressure { .. }
+            | Face::NonReflectingPressure { .. } => {}
         }
     }
     let inlet = any(|face| matches!(face, Face::VelocityInlet { .. }));

@@ -5,7 +5,7 @@
 //! |---|---|---|
 //! | D3Q19 | directions and their numbering | [`directions`] |
 //! | D3Q19 | weights, density, momentum, viscosity | [`lattice`] |
-//! | Eq. 1 | streaming | [`streaming`], at the faces [`boundary`] |
+//! | Eq. 1 | streaming | [`streaming`], at the faces [`boundary`], where sound leaves [`non_reflecting`] |
 //! | Eq. 1, `G` | body force | [`forcing`] |
 //! | Eq. 2 | SRT | [`collision`] |
 //! | Eq. 3 | MRT | [`collision`], `M` in [`moments`], `S-hat` in [`rates`] |
@@ -38,6 +38,7 @@ pub mod grains;
 pub mod guard;
 pub mod lattice;
 pub mod moments;
+pub mod non_reflecting;
 pub mod partial_saturation;
 pub mod planes;
 pub mod rates;

@@ -8,6 +8,7 @@ use crate::domain::Domain;
 use crate::forcing::forced_velocity;
 use crate::guard::{Evidence, Guard, Stopped};
 use crate::lattice::{Populations, Vec3, density, momentum};
+use crate::non_reflecting::SlowMeans;
 use crate::partial_saturation::share_weight;
 use crate::planes::map_planes;
 use crate::setup::{Setup, SetupError};
@@ -24,6 +25,8 @@ pub struct Memory {
     pub loads: Vec<Load>,
     /// What the guard has seen.
     pub evidence: Evidence,
+    /// Slow means of the outward velocity in the cells at non-reflecting faces.
+    pub slow_means: Vec<f64>,
 }
 
 /// The oracle: the fluid of one box, and the solids that move through it as prescribed.
@@ -36,6 +39,7 @@ pub struct Solver {
     post: Vec<Populations>,
     loads: Vec<Load>,
     guard: Guard,
+    slow_means: SlowMeans,
     steps: u64,
 }
 
@@ -72,8 +76,9 @@ impl Solver {
     ) -> Result<Self, SetupError> {
         let empty = vec![[0.0; Q]; setup.domain.cell_count()];
         let mut solver = Self::from_populations(setup, empty)?;
-        let Solver { setup, coverage, f, .. } = &mut solver;
+        let Solver { setup, coverage, f, slow_means, .. } = &mut solver;
         fill(f, setup, coverage.as_ref().filter(|_| covered_move), state);
+        *slow_means = SlowMeans::starting_from(&setup.domain, f);
         Ok(solver)
     }
 
@@ -93,7 +98,8 @@ impl Solver {
     /// Errors if the set-up cannot be run.
     ///
     /// # Panics
-    /// If there are not as many sets as cells, or loads as solids: a mistake in the calling code.
+    /// If there are not as many sets as cells, loads as solids, or slow means as cells at faces that need one: a
+    /// mistake in the calling code.
     pub fn going_on_from(
         setup: Setup,
         f: Vec<Populations>,
@@ -103,6 +109,7 @@ impl Solver {
         assert_eq!(memory.loads.len(), solver.loads.len(), "one load per solid");
         solver.guard = Guard::going_on_from(solver.setup.guard, memory.evidence);
         solver.loads = memory.loads;
+        solver.slow_means = SlowMeans::going_on_from(&solver.setup.domain, memory.slow_means);
         solver.steps = memory.steps;
         Ok(solver)
     }
@@ -116,8 +123,9 @@ impl Solver {
             .map(|phase| Coverage::new(&setup.domain, &phase.solids, phase.coverage));
         let loads = vec![Load::default(); setup.solid_phase.as_ref().map_or(0, |p| p.solids.len())];
         let guard = Guard::new(setup.guard);
+        let slow_means = SlowMeans::starting_from(&setup.domain, &f);
         let post = f.clone();
-        Solver { setup, operator, coverage, f, post, loads, guard, steps: 0 }
+        Solver { setup, operator, coverage, f, post, loads, guard, slow_means, steps: 0 }
     }
 
     /// One step. Errors when the guard, which looks every so many steps, finds the state broken.
@@ -137,7 +145,9 @@ impl Solver {
     pub fn advance_fluid(&mut self) -> Result<(), Stopped> {
         self.guard.look(&self.setup, &self.f, self.steps)?;
         self.collide(); // f → f*, and the loads on the solids         (right side of Eq. 1)
-        stream(&self.setup.domain, &self.post, &mut self.f); // f* → f   (left side of Eq. 1)
+        // f* → f   (left side of Eq. 1)
+        stream(&self.setup.domain, &self.slow_means, &self.post, &mut self.f);
+        self.slow_means.follow(&self.setup.domain, &self.post);
         self.steps += 1;
         Ok(())
     }
@@ -188,7 +198,12 @@ impl Solver {
 
     /// What it carries besides its set-up and populations.
     pub fn memory(&self) -> Memory {
-        Memory { steps: self.steps, loads: self.loads.clone(), evidence: self.guard.evidence() }
+        Memory {
+            steps: self.steps,
+            loads: self.loads.clone(),
+            evidence: self.guard.evidence(),
+            slow_means: self.slow_means.values().to_vec(),
+        }
     }
 
     /// Mean density at the guard's last look over that at its first. A velocity inlet with a free

@@ -4,10 +4,16 @@ use crate::boundary::entering;
 use crate::directions::{C, Q};
 use crate::domain::Domain;
 use crate::lattice::Populations;
+use crate::non_reflecting::SlowMeans;
 use crate::planes::for_each_plane;
 
 /// Fills `f` at time `t + 1` from the post-collision populations `post` at time `t`.
-pub fn stream(domain: &Domain, post: &[Populations], f: &mut [Populations]) {
+pub fn stream(
+    domain: &Domain,
+    slow_means: &SlowMeans,
+    post: &[Populations],
+    f: &mut [Populations],
+) {
     let [nx, ny, nz] = domain.cells();
     for_each_plane(f, nx * ny, |z, plane| {
         for y in 0..ny {
@@ -22,7 +28,7 @@ pub fn stream(domain: &Domain, post: &[Populations], f: &mut [Populations]) {
                         let offset = cx + nx as isize * (cy + ny as isize * cz);
                         post[here.wrapping_add_signed(-offset)][a]
                     } else if crosses(cell, [nx, ny, nz], a) {
-                        entering(domain, post, cell, a)
+                        entering(domain, slow_means, post, cell, a)
                     } else {
                         let from = std::array::from_fn(|axis| {
                             cell[axis].wrapping_add_signed(-C[a][axis] as isize)

@@ -147,6 +147,9 @@ fn faces(domain: &Domain) -> Value {
                 Face::DevelopedPressure { density } => {
                     json!({ "kind": "developed_pressure", "density": density })
                 }
+                Face::NonReflectingPressure { density, memory } => {
+                    json!({ "kind": "non_reflecting_pressure", "density": density, "memory": memory })
+                }
             };
             faces.insert(FACE_NAMES[axis][side].to_owned(), face);
         }

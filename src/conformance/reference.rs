@@ -9,6 +9,7 @@ use psmrt_reference::equilibrium::{equilibrium, equilibrium_moments};
 use psmrt_reference::grains::contact::{Relative, contact_force};
 use psmrt_reference::lattice::{Vec3, W, density, momentum, relaxation_time};
 use psmrt_reference::moments::{CellMatrix, moment_matrix};
+use psmrt_reference::non_reflecting::SlowMeans;
 use psmrt_reference::partial_saturation::{Weighting, share_weight};
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
@@ -98,7 +99,8 @@ impl Candidate for Oracle {
 
     fn streaming(&mut self, problem: &Streaming) -> Option<Answers> {
         let mut f = problem.post.clone();
-        stream(&problem.domain, &problem.post, &mut f);
+        let slow_means = SlowMeans::starting_from(&problem.domain, &problem.post);
+        stream(&problem.domain, &slow_means, &problem.post, &mut f);
         Some(Answers::new().with("populations", Array::populations(problem.domain.cells(), &f)))
     }
 

@@ -150,7 +150,7 @@ impl Engine for ReferenceEngine {
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
-        let Memory { steps, loads, evidence } = self.fluid().memory();
+        let Memory { steps, loads, evidence, slow_means } = self.fluid().memory();
         put_whole(out, steps)?;
         put_vector(out, &self.body_force())?;
         put_whole(out, loads.len() as u64)?;
@@ -164,6 +164,7 @@ impl Engine for ReferenceEngine {
         put_real(out, evidence.last_max_speed)?;
         put_whole(out, self.fluid().populations().len() as u64)?;
         self.fluid().populations().iter().flatten().try_for_each(|&f| put_real(out, f))?;
+        slow_means.iter().try_for_each(|&mean| put_real(out, mean))?;
         match &self.state {
             State::Fluid(_) => Ok(()),
             State::Coupled(solver, _) => {
@@ -197,13 +198,18 @@ impl Engine for ReferenceEngine {
             State::Fluid(_) => None,
             State::Coupled(_, part) => Some(part.clone()),
         };
+        // The scene that the checkpoint is bound to says how many there are.
+        let mut slow_means = self.fluid().memory().slow_means;
         // The old state makes room: with both a run would need twice the memory to be resumed.
         self.state = State::Fluid(Box::new(single_cell(&setup)?));
         let mut f: Vec<Populations> = vec![[0.0; 19]; setup.domain.cell_count()];
         for population in f.iter_mut().flatten() {
             *population = real(from)?;
         }
-        let memory = Memory { steps, loads, evidence };
+        for mean in &mut slow_means {
+            *mean = real(from)?;
+        }
+        let memory = Memory { steps, loads, evidence, slow_means };
         self.state = match part {
             None => {
                 let solver = Solver::going_on_from(setup, f, memory).map_err(io::Error::other)?;

@@ -80,5 +80,8 @@ fn face_words(face: &Face) -> &'static str {
         Face::FreeOutflow => "free outflow, zero gradient",
         Face::Pressure { .. } => "pressure, anti-bounce-back",
         Face::DevelopedPressure { .. } => "pressure, developed flow, non-equilibrium extrapolation",
+        Face::NonReflectingPressure { .. } => {
+            "pressure, non-reflecting: non-equilibrium extrapolation, the density following the outgoing wave"
+        }
     }
 }

@@ -10,6 +10,7 @@ use psmrt_reference::setup::Setup;
 
 use super::layout::{Layout, Store};
 use super::numbers::{count, literal};
+use super::outgoing;
 use super::streaming::{access, faces};
 use super::table;
 
@@ -127,7 +128,8 @@ impl Recipe<'_> {
         if listed {
             add(include_str!("wgsl/coordinates.wgsl"));
             add(include_str!("wgsl/task.wgsl"));
-            add(&faces(&self.setup.domain, &self.layout));
+            let writes = matches!(work, Work::StepListed { is_first: false, .. });
+            add(&faces(&self.setup.domain, &self.layout, writes));
         }
         add(match work {
             Work::Step { .. } => include_str!("wgsl/step.wgsl"),
@@ -169,7 +171,12 @@ impl Recipe<'_> {
         }
         match work {
             Work::StepListed { is_first: true, .. } => flags.push("BEFORE"),
-            Work::StepListed { is_first: false, .. } => flags.push("AFTER"),
+            Work::StepListed { is_first: false, .. } => {
+                flags.push("AFTER");
+                if outgoing::has_any(&self.setup.domain) {
+                    flags.push("OUTGOING");
+                }
+            }
             _ => {}
         }
         let forced = self.setup.body_force.is_some();

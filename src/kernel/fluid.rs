@@ -17,6 +17,7 @@ use super::error::KernelError;
 use super::field::Field;
 use super::layout::Layout;
 use super::numbers::{count, single};
+use super::outgoing::Outgoing;
 use super::pipeline::Pipeline;
 use super::solids::Solids;
 use super::streaming::weight;
@@ -37,6 +38,8 @@ pub struct Kernel {
     pub(super) solids: Option<Solids>,
     /// Cells at faces that are not periodic.
     pub(super) face_cells: Vec<u32>,
+    /// Velocities at faces that let sound out, if there are such faces.
+    pub(super) outgoing: Option<Outgoing>,
     /// The cells that the step of all cells does not do right.
     pub(super) list: Growing,
     pub(super) list_count: u32,
@@ -113,6 +116,7 @@ impl Kernel {
             is_collided: false,
             solids,
             face_cells,
+            outgoing: Outgoing::new(gpu, &setup.domain)?,
             list: Growing::new(gpu, "list of cells")?,
             list_count: 0,
             tasks: Tasks::new(gpu)?,
@@ -228,6 +232,10 @@ impl Kernel {
             let (binding, start) = self.layout.direction(a);
             let field = &self.copies[self.current][binding as usize];
             field.write(&self.gpu, start, bytemuck::cast_slice(&row(a)));
+        }
+        if let Some(outgoing) = &mut self.outgoing {
+            let rows: Vec<Vec<f32>> = (0..Q).map(row).collect();
+            outgoing.start(&self.gpu, &self.setup.domain, |a, cell| rows[a][cell])?;
         }
         self.is_collided = false;
         self.gpu.wait()

@@ -10,6 +10,7 @@ use psmrt_reference::domain::Domain;
 
 use super::device::AdapterFacts;
 use super::error::KernelError;
+use super::outgoing;
 
 /// Bytes of one value.
 pub(super) const WORD: u64 = 4;
@@ -92,7 +93,8 @@ impl Layout {
             return Err(too_large("one direction of the populations", stride * WORD, largest));
         }
         let layout = layout(Store::Buffers, stride, per_binding)?;
-        let needed = 2 * layout.bindings() + OTHER_BINDINGS;
+        let at_faces = if outgoing::has_any(domain) { outgoing::BINDINGS } else { 0 };
+        let needed = 2 * layout.bindings() + OTHER_BINDINGS + at_faces;
         if needed > adapter.max_bindings {
             let (available, adapter) = (adapter.max_bindings, adapter.name.clone());
             return Err(KernelError::TooManyBindings { needed, available, adapter });

@@ -34,6 +34,7 @@ mod layout;
 mod memory;
 mod movable;
 mod numbers;
+mod outgoing;
 mod pipeline;
 mod quiet;
 mod sight;

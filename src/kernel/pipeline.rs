@@ -3,6 +3,7 @@
 use super::compose::{Recipe, SolidData, Work};
 use super::device::Gpu;
 use super::error::KernelError;
+use super::outgoing;
 use super::solids::SolidTable;
 
 /// A group of bindings that a shader may have.
@@ -20,6 +21,10 @@ pub(super) enum Slot {
     List,
     /// What is read back.
     Seen,
+    /// Velocities at faces that let sound out, those that are read.
+    Outgoing,
+    /// Those that are written.
+    NewOutgoing,
 }
 
 /// A shader made ready.
@@ -38,6 +43,13 @@ impl Pipeline {
             Work::StepListed { .. } => slots.extend([Slot::New, Slot::Task, Slot::List]),
             Work::Observe => slots.extend([Slot::Task, Slot::List, Slot::Seen]),
             Work::Summary => slots.extend([Slot::Task, Slot::Seen]),
+        }
+        if outgoing::has_any(&recipe.setup.domain) {
+            match work {
+                Work::Step { .. } | Work::StepListed { is_first: true, .. } => {}
+                Work::StepListed { .. } => slots.extend([Slot::Outgoing, Slot::NewOutgoing]),
+                Work::Observe | Work::Summary => slots.push(Slot::Outgoing),
+            }
         }
         let (solids, with_loads) = recipe.solids_in(work);
         let listed = matches!(work, Work::StepListed { .. });

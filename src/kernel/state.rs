@@ -15,14 +15,20 @@ impl Kernel {
         self.is_collided
     }
 
-    /// Hands out the populations as the device holds them: for each direction the bits of all cells.
+    /// Hands out the populations as the device holds them, for each direction the bits of all cells, and then those
+    /// of the velocities at faces that let sound out.
     pub fn save(&self, mut row: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         for a in 0..Q {
             let (binding, start) = self.layout.direction(a);
             let field = &self.copies[self.current][binding as usize];
             row(&field.read(&self.gpu, start).map_err(io::Error::other)?)?;
         }
-        Ok(())
+        match &self.outgoing {
+            Some(outgoing) => {
+                row(&outgoing.read(&self.gpu, self.current).map_err(io::Error::other)?)
+            }
+            None => Ok(()),
+        }
     }
 
     /// Goes on from what [`Self::save`] and [`Self::is_collided`] gave, and the loads of the last step.
@@ -38,6 +44,9 @@ impl Kernel {
             let (binding, start) = self.layout.direction(a);
             let field = &self.copies[self.current][binding as usize];
             field.write(&self.gpu, start, bytemuck::cast_slice(&values));
+        }
+        if let Some(outgoing) = &mut self.outgoing {
+            outgoing.restore(&self.gpu, &mut row)?;
         }
         self.is_collided = is_collided;
         if let Some(solids) = &mut self.solids {

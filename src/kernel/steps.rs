@@ -228,6 +228,12 @@ impl Kernel {
                     bindings.push((51, list.as_entire_binding()));
                 }
                 Slot::Seen => bindings.push((60, seen.resource())),
+                Slot::Outgoing => {
+                    bindings.extend(self.outgoing.iter().map(|kept| (52, kept.resource(from))));
+                }
+                Slot::NewOutgoing => {
+                    bindings.extend(self.outgoing.iter().map(|kept| (53, kept.resource(1 - from))));
+                }
                 Slot::Solid(table) => {
                     let Some(solids) = &self.solids else { continue };
                     bindings.extend(solids.resource(*table));

@@ -8,7 +8,8 @@
 //! - a link that crosses walls or inlets is bounced back with the sum of their velocities;
 //! - else one that crosses a face of given pressure is bounced back with its sign turned;
 //! - else one that crosses a developed one takes what the cell inside that it would come from sends on, at the
-//!   density that is as far beyond the face's as that cell's is on this side;
+//!   density that is as far beyond the face's as that cell's is on this side; where the face lets sound out, its
+//!   density is that of `outgoing.rs`;
 //! - else each crossed face in turn wraps (periodic), mirrors (free slip) or clamps (outflow) the place
 //!   that the link comes from.
 
@@ -17,6 +18,7 @@ use psmrt_reference::domain::{Domain, Face};
 
 use super::layout::{Layout, Store};
 use super::numbers::literal;
+use super::outgoing;
 
 /// The populations of a shader: WGSL functions `own` and `wrapped`, and `keep` if it writes.
 pub(super) fn access(layout: &Layout, writes: bool) -> String {
@@ -83,8 +85,8 @@ fn keep(layout: &Layout) -> String {
     text + "}\n"
 }
 
-/// WGSL function `entering`: the same as `wrapped`, with the faces.
-pub(super) fn faces(domain: &Domain, layout: &Layout) -> String {
+/// WGSL function `entering`: the same as `wrapped`, with the faces. `writes`: whether the shader makes steps.
+pub(super) fn faces(domain: &Domain, layout: &Layout, writes: bool) -> String {
     let mut rules = String::new();
     let mut needs_own = false;
     for a in 1..Q {
@@ -106,9 +108,10 @@ pub(super) fn faces(domain: &Domain, layout: &Layout) -> String {
         }
     }
     let mut text = String::new();
-    if rules.contains("carried_over(") {
+    if rules.contains("carried_over(") || outgoing::has_any(domain) {
         text += CARRIED_OVER;
     }
+    text += &outgoing::text(domain, writes);
     text += "// What enters a cell along each direction.\n";
     text += "fn entering(x: u32, y: u32, z: u32) -> array<f32, 19> {\n";
     text += "    var h = wrapped(x, y, z);\n";
@@ -211,7 +214,7 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
     let c = C[a].map(f64::from);
     let w = weight(a);
     let mut wall: Option<[f64; 3]> = None;
-    let (mut pressure, mut developed) = (None, None);
+    let (mut pressure, mut developed, mut open) = (None, None, None);
     // Against which the cell lies that the link comes from.
     let mut along = C[a];
     let mut from: [&str; 3] = std::array::from_fn(|axis| place(axis, C[a][axis]));
@@ -234,7 +237,12 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
             Face::DevelopedPressure { density } => {
                 from[axis] = place(axis, 0);
                 along[axis] = 0;
-                developed = Some(density);
+                (developed, open) = (Some(density), None);
+            }
+            Face::NonReflectingPressure { density, .. } => {
+                from[axis] = place(axis, 0);
+                along[axis] = 0;
+                (developed, open) = (Some(density), Some((axis, C[a][axis] < 0)));
             }
             Face::Wall { velocity } | Face::VelocityInlet { velocity } => {
                 let sum = wall.get_or_insert([0.0; 3]);
@@ -278,11 +286,17 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
                     let [x, y, z]: [String; 3] =
                         std::array::from_fn(|axis| coordinate(axis, along[axis]));
                     let [cx, cy, cz] = direction.map(|c| literal(f64::from(c)));
-                    format!(
-                        "carried_over(own({x}, {y}, {z}), {sent}, vec3<f32>({cx}, {cy}, {cz}), {}, {})",
-                        literal(w),
-                        literal(density - 1.0)
-                    )
+                    let (c, w) = (format!("vec3<f32>({cx}, {cy}, {cz})"), literal(w));
+                    match open {
+                        None => format!(
+                            "carried_over(own({x}, {y}, {z}), {sent}, {c}, {w}, {})",
+                            literal(density - 1.0)
+                        ),
+                        Some((axis, is_high)) => format!(
+                            "{}(vec3<u32>({x}, {y}, {z}), {sent}, {c}, {w})",
+                            outgoing::function(axis, is_high)
+                        ),
+                    }
                 }
             };
             Rule { expression, needs_own: false }

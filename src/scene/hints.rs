@@ -143,6 +143,9 @@ fn places_of(name: &str, here: &str) -> Vec<String> {
 /// What to write instead of a word that is not among the `known`.
 pub(super) fn unknown_word(found: &str, known: &[&str]) -> String {
     let all = known.join(", ");
+    if known.contains(&"pressure") && key_of(found, &["non_reflecting"]).is_some() {
+        return "write `kind = \"pressure\"` and `non_reflecting = true`".to_owned();
+    }
     match words_of(found, known).as_slice() {
         [] => suggestion(found, known),
         [word] => format!("psmrt calls it \"{word}\" (known: {all})"),

@@ -1,7 +1,7 @@
 //! Words of neighbouring codes and textbooks for what scenes call otherwise.
 
 /// Keys: another name, and psmrt's.
-const KEYS: [(&str, &str); 22] = [
+const KEYS: [(&str, &str); 29] = [
     ("nu", "kinematic_viscosity"),
     ("rho", "density"),
     ("delta_x", "dx"),
@@ -24,6 +24,13 @@ const KEYS: [(&str, &str); 22] = [
     ("lambda", "magic"),
     ("young", "stiffness"),
     ("coefficient_of_restitution", "restitution"),
+    ("nonreflecting", "non_reflecting"),
+    ("non_reflective", "non_reflecting"),
+    ("absorbing", "non_reflecting"),
+    ("characteristic", "non_reflecting"),
+    ("wave_transmissive", "non_reflecting"),
+    ("sponge", "non_reflecting"),
+    ("memory_time", "memory"),
 ];
 
 /// Words: another name, and psmrt's, several where they have to be told apart.

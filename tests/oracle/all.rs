@@ -36,6 +36,7 @@ mod momentum_balance;
 mod poiseuille;
 mod ps_channel_wall;
 mod reproducible;
+mod sound;
 mod sphere_arrays;
 mod stokes_settling;
 mod suspension;

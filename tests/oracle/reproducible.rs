@@ -14,7 +14,8 @@ use psmrt_reference::solver::Solver;
 fn result_on(threads: usize) -> (Vec<Populations>, Vec<Load>) {
     // 18 x 16 x 17 cells: more than are worked on serially, and not a multiple of anything.
     let lid = Face::Wall { velocity: Vec3::new(0.03, 0.0, 0.0) };
-    let faces = Faces { z: [Face::wall(), lid], ..Faces::PERIODIC };
+    let open = Face::NonReflectingPressure { density: 1.0, memory: 20.0 };
+    let faces = Faces { x: [open; 2], z: [Face::wall(), lid], ..Faces::PERIODIC };
     let sphere = |x: f64, radius| Solid {
         velocity: Vec3::new(0.02, 0.01, -0.01),
         spin: Vec3::new(0.0, 0.01, 0.0),

@@ -131,6 +131,8 @@ pub fn mixed_faces() -> Vec<Faces> {
     let inlet = Face::VelocityInlet { velocity: Vec3::new(0.04, 0.01, -0.01) };
     let [low, high] = [0.98, 1.01].map(|density| Face::Pressure { density });
     let [through, on] = [0.99, 1.02].map(|density| Face::DevelopedPressure { density });
+    let [open, wide] = [(0.99, 7.0), (1.02, 60.0)]
+        .map(|(density, memory)| Face::NonReflectingPressure { density, memory });
     let (slip, out, wall) = (Face::FreeSlip, Face::FreeOutflow, Face::wall());
     let periodic = [Face::Periodic; 2];
     vec![
@@ -144,6 +146,9 @@ pub fn mixed_faces() -> Vec<Faces> {
         Faces { x: periodic, y: [slip, low], z: [high, slip] },
         Faces { x: [through, on], y: [wall, slip], z: [out, low] },
         Faces { x: [inlet, on], y: periodic, z: [slip, through] },
+        Faces { x: [open, wide], y: [wall, slip], z: [out, open] },
+        Faces { x: [wide, through], y: [on, open], z: [wide, low] },
+        Faces { x: [inlet, wide], y: periodic, z: [open, wide] },
     ]
 }
 
@@ -283,6 +288,9 @@ pub fn scenes() -> Vec<(&'static str, Setup)> {
     let cavity = Faces { x: [Face::wall(); 2], y: [Face::FreeSlip, Face::wall()], z: walls };
     let channel = Faces { x: [inlet, outlet], y: [Face::FreeSlip; 2], z: [Face::wall(); 2] };
     let open = Faces { x: [inlet, Face::FreeOutflow], y: [Face::Periodic; 2], z: walls };
+    let [end, side] = [(1.0, 40.0), (0.999, 7.0)]
+        .map(|(density, memory)| Face::NonReflectingPressure { density, memory });
+    let jet = Faces { x: [inlet, end], y: [Face::FreeSlip, side], z: [Face::Periodic; 2] };
     let held = vec![sphere([5.2, 4.9, 5.3], 2.6, still, still)];
     let bed: Vec<Solid> = (0..8_u32)
         .map(|i| {
@@ -336,7 +344,11 @@ pub fn scenes() -> Vec<(&'static str, Setup)> {
         }),
         ("MRT, moving solids between walls, superposition", {
             let setup = Setup::fluid(Domain::new([13, 11, 12], cavity).unwrap(), dhumieres(0.7));
-            setup.with_solids(phase(moving, fraction, superposed))
+            setup.with_solids(phase(moving.clone(), fraction, superposed))
+        }),
+        ("MRT, moving solids before non-reflecting faces", {
+            let setup = Setup::fluid(Domain::new([13, 11, 12], jet).unwrap(), dhumieres(0.6));
+            setup.with_solids(phase(moving, nt, bounce)).with_body_force(g)
         }),
     ]
 }

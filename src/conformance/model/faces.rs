@@ -37,8 +37,8 @@ impl Model {
                     wall = Some(wall.unwrap_or_default() + velocity);
                 }
                 Face::Pressure { density } => pressure = Some(density),
-                Face::DevelopedPressure { .. } => {
-                    unreachable!("no problem of the kit has a developed pressure face")
+                Face::DevelopedPressure { .. } | Face::NonReflectingPressure { .. } => {
+                    unreachable!("no problem of the kit has a developed or non-reflecting face")
                 }
             }
         }

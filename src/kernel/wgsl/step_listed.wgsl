@@ -8,6 +8,9 @@ fn step_listed(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let at = coordinates(listed(number));
     let h = observed(at);
+//#if OUTGOING
+    keep_outgoing(at);
+//#end
 //#if LOADS
     keep_moments_of(at.x, at.y, at.z, h);
 //#end

@@ -1,7 +1,7 @@
 //! The six faces, and the combinations that make no sense.
 
 use psmrt_reference::domain::{DomainError, FACE_NAMES, Face, Faces};
-use psmrt_reference::lattice::Vec3;
+use psmrt_reference::lattice::{CS2, Vec3};
 
 use super::numbers::{absent, beyond, finite, needed, shorter_step};
 use super::{Trouble, velocity};
@@ -12,7 +12,11 @@ use crate::scene::units::Units;
 const KEYS: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
 
 /// What happens at the six faces.
-pub(super) fn faces(section: &FacesSection, units: &Units) -> Result<Faces, Trouble> {
+pub(super) fn faces(
+    section: &FacesSection,
+    cells: [usize; 3],
+    units: &Units,
+) -> Result<Faces, Trouble> {
     let given = [
         [&section.x_low, &section.x_high],
         [&section.y_low, &section.y_high],
@@ -22,7 +26,7 @@ pub(super) fn faces(section: &FacesSection, units: &Units) -> Result<Faces, Trou
     for axis in 0..3 {
         for side in 0..2 {
             if let Some(section) = given[axis][side] {
-                built[axis][side] = face(KEYS[axis][side], section, units)?;
+                built[axis][side] = face(KEYS[axis][side], section, cells[axis], units)?;
             }
         }
     }
@@ -30,7 +34,8 @@ pub(super) fn faces(section: &FacesSection, units: &Units) -> Result<Faces, Trou
     Ok(Faces { x, y, z })
 }
 
-fn face(name: &str, section: &FaceSection, units: &Units) -> Result<Face, Trouble> {
+/// One face; `along`: cells of the box along its normal.
+fn face(name: &str, section: &FaceSection, along: usize, units: &Units) -> Result<Face, Trouble> {
     let key = |last: &str| format!("faces.{name}.{last}");
     if !matches!(section.kind, FaceKind::Wall | FaceKind::VelocityInlet) {
         let belongs = "a `wall` or a `velocity_inlet`";
@@ -39,6 +44,15 @@ fn face(name: &str, section: &FaceSection, units: &Units) -> Result<Face, Troubl
     if section.kind != FaceKind::Pressure {
         absent(&key("pressure"), section.pressure.as_ref(), "a face of kind `pressure`")?;
         absent(&key("developed"), section.developed.as_ref(), "a face of kind `pressure`")?;
+        absent(
+            &key("non_reflecting"),
+            section.non_reflecting.as_ref(),
+            "a face of kind `pressure`",
+        )?;
+    }
+    if section.non_reflecting != Some(true) {
+        let belongs = "a `pressure` face with `non_reflecting = true`";
+        absent(&key("memory"), section.memory.as_ref(), belongs)?;
     }
     Ok(match section.kind {
         FaceKind::Periodic => Face::Periodic,
@@ -61,12 +75,51 @@ fn face(name: &str, section: &FaceSection, units: &Units) -> Result<Face, Troubl
             let si_pressure =
                 needed(&key("pressure"), section.pressure, "a pressure face needs it", remedy)?;
             let density = density(&key("pressure"), si_pressure, units)?;
-            match section.developed {
-                Some(true) => Face::DevelopedPressure { density },
-                Some(false) | None => Face::Pressure { density },
+            match (section.non_reflecting, section.developed) {
+                (Some(true), Some(false)) => {
+                    return Err(Trouble::new(
+                        key("developed"),
+                        "a non-reflecting face lets the shear stress through, as `developed = true` does",
+                        "remove it",
+                    ));
+                }
+                (Some(true), _) => {
+                    let memory = memory(&key("memory"), section.memory, along, units)?;
+                    Face::NonReflectingPressure { density, memory }
+                }
+                (_, Some(true)) => Face::DevelopedPressure { density },
+                _ => Face::Pressure { density },
             }
         }
     })
+}
+
+/// Memory of a non-reflecting face where a scene gives none, in times that sound takes across the box: the flow
+/// between an inlet and such a face then settles fastest (`reference/src/non_reflecting.rs`).
+const CROSSINGS: f64 = 4.0;
+
+/// Longest memory, steps: single precision still sees what a step takes off, and few runs wait as long for a pressure.
+const LONGEST_MEMORY: f64 = 1e6;
+
+/// Memory of a non-reflecting face, steps.
+fn memory(key: &str, si_memory: Option<f64>, along: usize, units: &Units) -> Result<f64, Trouble> {
+    let Some(si_memory) = si_memory else {
+        return Ok((CROSSINGS * along as f64 / CS2.sqrt()).min(LONGEST_MEMORY));
+    };
+    finite(key, &[si_memory], "s")?;
+    let memory = si_memory / units.si_dt;
+    if (1.0..=LONGEST_MEMORY).contains(&memory) {
+        return Ok(memory);
+    }
+    let [shortest, longest] = [1.0, LONGEST_MEMORY].map(|steps| steps * units.si_dt);
+    let problem = format!(
+        "it is {memory:.3e} time steps; 1 to {LONGEST_MEMORY:e} are allowed, {shortest:.3e} to {longest:.3e} s"
+    );
+    let remedy = format!(
+        "remove it: {CROSSINGS} times the time that sound takes along the box, {:.3e} s, stands for it",
+        CROSSINGS * along as f64 / CS2.sqrt() * units.si_dt
+    );
+    Err(Trouble::new(key, problem, remedy))
 }
 
 /// How far the density at a face may be from 1: beyond, the flow is not nearly incompressible.

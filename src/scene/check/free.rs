@@ -163,7 +163,8 @@ fn planes(domain: &Domain, laws: &Laws, mirrored: &[[bool; 2]; 3]) -> Vec<Plane>
                 Face::VelocityInlet { .. }
                 | Face::FreeOutflow
                 | Face::Pressure { .. }
-                | Face::DevelopedPressure { .. } => (Vec3::zeros(), laws.walls),
+                | Face::DevelopedPressure { .. }
+                | Face::NonReflectingPressure { .. } => (Vec3::zeros(), laws.walls),
             };
             let mut point = Vec3::zeros();
             let mut inward = Vec3::zeros();

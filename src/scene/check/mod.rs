@@ -56,7 +56,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     sane(key, file.fluid.kinematic_viscosity, 1e-15..=1e15, "m2/s")?;
     let (units, tau) = time::units_and_tau(&file.time, &file.fluid, file.domain.dx)?;
     let collision = collision::collision(&file.collision, tau)?;
-    let faces = faces::faces(&file.faces, &units)?;
+    let faces = faces::faces(&file.faces, cells, &units)?;
     let domain = Domain::new(cells, faces).map_err(|error| faces::trouble(&error))?;
     let mut setup = Setup::fluid(domain, collision);
     setup.body_force = match &file.body_force {
