@@ -18,8 +18,8 @@
 //! **Edges and corners.** A link that crosses a wall or an inlet is bounced back, whatever else it
 //! crosses, with the sum of the velocities of the walls and inlets that it crosses: so every face
 //! cell, at an edge too, lets in exactly `rho u_n` and a moving wall creates no mass. Failing that, a
-//! link that crosses a face of given pressure obeys it, and then one that crosses a developed or non-reflecting one.
-//! Else each crossed face in turn wraps, mirrors or clamps the place that the link comes from. Bounce-back acts on the node itself, so a mirror
+//! link that crosses a face of given pressure obeys it, and then one that crosses a developed or non-reflecting one,
+//! or two of them, at the mean of their densities. Else each crossed face in turn wraps, mirrors or clamps the place that the link comes from. Bounce-back acts on the node itself, so a mirror
 //! plane that meets a wall or an inlet gives exactly the flow of the whole, unmirrored box.
 
 use crate::directions::{C, OPPOSITE, number_of};
@@ -38,9 +38,8 @@ pub fn entering(
     let here = &post[domain.index(x)];
     let mut wall_velocity: Option<Vec3> = None;
     let mut face_density: Option<f64> = None;
-    let mut developed_density: Option<f64> = None;
-    // Axis and side of the face whose density follows the wave that arrives.
-    let mut follows: Option<(usize, usize)> = None;
+    // Axis and side of the faces that the flow inside is carried over.
+    let mut carried: [Option<(usize, usize)>; 3] = [None; 3];
     let mut from = x;
     let mut direction = C[a];
     for axis in 0..3 {
@@ -61,11 +60,8 @@ pub fn entering(
                 wall_velocity = Some(wall_velocity.unwrap_or_else(Vec3::zeros) + velocity);
             }
             Face::Pressure { density } => face_density = Some(density),
-            Face::DevelopedPressure { density } => {
-                (developed_density, follows) = (Some(density), None);
-            }
-            Face::NonReflectingPressure { density, .. } => {
-                (developed_density, follows) = (Some(density), Some((axis, side)));
+            Face::DevelopedPressure { .. } | Face::NonReflectingPressure { .. } => {
+                carried[axis] = Some((axis, side));
             }
         }
     }
@@ -74,12 +70,16 @@ pub fn entering(
         (None, Some(density)) => anti_bounce_back(here, a, density),
         (None, None) => {
             let (inside, a) = (&post[domain.index(from)], number_of(direction));
-            developed_density.map_or(inside[a], |density| {
-                let rho_w = follows.map_or(density, |face| {
-                    slow_means.face_density(domain, face, density, from, inside)
-                });
-                carried_over(inside, a, rho_w)
-            })
+            let densities = carried.iter().flatten().filter_map(|&(axis, side)| {
+                match domain.faces().axis(axis)[side] {
+                    Face::NonReflectingPressure { density, .. } => {
+                        Some(slow_means.face_density(domain, (axis, side), density, from, inside))
+                    }
+                    face => face.held_density(),
+                }
+            });
+            let (sum, count) = densities.fold((0.0, 0.0), |(sum, n), rho| (sum + rho, n + 1.0));
+            if count > 0.0 { carried_over(inside, a, sum / count) } else { inside[a] }
         }
     }
 }

@@ -125,9 +125,9 @@ impl Outgoing {
     }
 }
 
-/// Name of the function that gives what enters through a face.
+/// Name of the function that gives the density at a face, less 1, from its cell's populations and place.
 pub(super) fn function(axis: usize, is_high: bool) -> String {
-    format!("let_out_{}_{}", ["x", "y", "z"][axis], if is_high { "high" } else { "low" })
+    format!("drho_{}_{}", ["x", "y", "z"][axis], if is_high { "high" } else { "low" })
 }
 
 /// WGSL: for each such face of the box the function [`function`] and, if the shader makes steps, `keep_outgoing`,
@@ -182,12 +182,10 @@ fn excess_{name}(h: array<f32, 19>, at: vec3<u32>) -> vec2<f32> {{
     return vec2<f32>((last.x - {rate} * last.x) + (u - last.y), u);
 }}
 
-// What enters through the face by way of its cell `at`, along `c` of weight `w`; `f` is the cell's own population.
-fn {name}(at: vec3<u32>, f: f32, c: vec3<f32>, w: f32) -> f32 {{
-    let h = own(at.x, at.y, at.z);
+// Density at the face, less 1.
+fn {name}(h: array<f32, 19>, at: vec3<u32>) -> f32 {{
     // ρ_w = ρ_0 + √3 ρ d
-    let drho_w = {drho_0} + {root} * (1.0 + sum(h)) * excess_{name}(h, at).x;
-    return carried_over(h, f, c, w, drho_w);
+    return {drho_0} + {root} * (1.0 + sum(h)) * excess_{name}(h, at).x;
 }}
 "
     )

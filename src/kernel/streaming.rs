@@ -214,7 +214,8 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
     let c = C[a].map(f64::from);
     let w = weight(a);
     let mut wall: Option<[f64; 3]> = None;
-    let (mut pressure, mut developed, mut open) = (None, None, None);
+    // Axes and densities of the faces that the flow inside is carried over; no density where it follows the sound.
+    let (mut pressure, mut carried) = (None, Vec::new());
     // Against which the cell lies that the link comes from.
     let mut along = C[a];
     let mut from: [&str; 3] = std::array::from_fn(|axis| place(axis, C[a][axis]));
@@ -237,12 +238,12 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
             Face::DevelopedPressure { density } => {
                 from[axis] = place(axis, 0);
                 along[axis] = 0;
-                (developed, open) = (Some(density), None);
+                carried.push((axis, Some(density)));
             }
-            Face::NonReflectingPressure { density, .. } => {
+            Face::NonReflectingPressure { .. } => {
                 from[axis] = place(axis, 0);
                 along[axis] = 0;
-                (developed, open) = (Some(density), Some((axis, C[a][axis] < 0)));
+                carried.push((axis, None));
             }
             Face::Wall { velocity } | Face::VelocityInlet { velocity } => {
                 let sum = wall.get_or_insert([0.0; 3]);
@@ -280,24 +281,23 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
         (None, None) => {
             let number = C.iter().position(|&known| known == direction).unwrap_or(a);
             let sent = old(layout, number, &from);
-            let expression = match developed {
-                None => sent,
-                Some(density) => {
-                    let [x, y, z]: [String; 3] =
-                        std::array::from_fn(|axis| coordinate(axis, along[axis]));
-                    let [cx, cy, cz] = direction.map(|c| literal(f64::from(c)));
-                    let (c, w) = (format!("vec3<f32>({cx}, {cy}, {cz})"), literal(w));
-                    match open {
-                        None => format!(
-                            "carried_over(own({x}, {y}, {z}), {sent}, {c}, {w}, {})",
-                            literal(density - 1.0)
-                        ),
-                        Some((axis, is_high)) => format!(
-                            "{}(vec3<u32>({x}, {y}, {z}), {sent}, {c}, {w})",
-                            outgoing::function(axis, is_high)
-                        ),
+            let expression = if carried.is_empty() {
+                sent
+            } else {
+                let at: [String; 3] = std::array::from_fn(|axis| coordinate(axis, along[axis]));
+                let (at, c) = (at.join(", "), direction.map(|c| literal(f64::from(c))).join(", "));
+                let drho = |&(axis, density): &(usize, Option<f64>)| match density {
+                    Some(density) => literal(density - 1.0),
+                    None => {
+                        let function = outgoing::function(axis, C[a][axis] < 0);
+                        format!("{function}(own({at}), vec3<u32>({at}))")
                     }
-                }
+                };
+                let sum = carried.iter().map(drho).collect::<Vec<_>>().join(" + ");
+                // Where two such faces meet, the mean of their densities.
+                let share = literal(1.0 / carried.len() as f64);
+                let w = literal(w);
+                format!("carried_over(own({at}), {sent}, vec3<f32>({c}), {w}, {share} * ({sum}))")
             };
             Rule { expression, needs_own: false }
         }

@@ -190,6 +190,8 @@ fn mixed_faces() -> Vec<Faces> {
     let inlet = Face::VelocityInlet { velocity: Vec3::new(0.04, 0.01, -0.01) };
     let pressure = Face::Pressure { density: 1.01 };
     let developed = Face::DevelopedPressure { density: 0.99 };
+    let [open, side] =
+        [1.0, 0.98].map(|density| Face::NonReflectingPressure { density, memory: 20.0 * density });
     vec![
         Faces::PERIODIC,
         Faces { x: [Face::wall(); 2], y: [Face::wall(); 2], z: [Face::wall(), lid] },
@@ -197,6 +199,7 @@ fn mixed_faces() -> Vec<Faces> {
         Faces { x: [inlet, pressure], y: [Face::FreeSlip; 2], z: [Face::FreeSlip, Face::wall()] },
         Faces { x: [inlet, pressure], y: [Face::FreeSlip, Face::FreeOutflow], z: [pressure, lid] },
         Faces { x: [inlet, developed], y: [Face::FreeSlip, developed], z: [pressure, lid] },
+        Faces { x: [inlet, open], y: [Face::FreeSlip, side], z: [developed, lid] },
     ]
 }
 
