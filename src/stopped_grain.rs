@@ -92,10 +92,10 @@ impl Case<'_> {
         };
         let is_through = matches!(sunk.obstacle, Obstacle::Plane(_)) && sunk.overlap > sunk.radius;
         let symptom = format!(
-            "grain {} (counted from 0) {} {obstacle}: it is {:.3e} m deep, {:.2} times the radius of grain {weaker}, and \
-             {DEEPEST} is the limit",
+            "grain {} (counted from 0) {} {obstacle}: by {:.3e} m, {:.2} times the radius of grain {weaker}; \
+             the limit is {DEEPEST}",
             sunk.grain,
-            if is_through { "has gone through" } else { "has sunk into" },
+            if is_through { "has passed through" } else { "overlaps" },
             sunk.overlap * units.si_dx,
             sunk.depth(),
         );
@@ -117,7 +117,7 @@ impl Case<'_> {
         let harder = self.harder(asked.max(pressed).max(impact));
         if at_rest > 0.5 * DEEPEST {
             let cause = format!(
-                "contacts are too soft: at a stiffness of {:.3e} N/m weight presses grains in by {at_rest:.2e} of a \
+                "contacts are too soft: at a stiffness of {:.3e} N/m weight causes overlaps of {at_rest:.2e} of a \
                  diameter",
                 stiffness * units.si_stiffness()
             );
@@ -133,7 +133,7 @@ impl Case<'_> {
         }
         if speed > MAX_SPEED {
             let cause = format!(
-                "the grain moves at {speed:.2} cells per time step, which the flow about it does not survive"
+                "the grain moves at {speed:.2} cells per time step, at which the flow around it is unstable"
             );
             return (symptom, cause, self.shorter(speed));
         }
@@ -147,7 +147,7 @@ impl Case<'_> {
             )
         } else {
             format!(
-                "contacts are too soft ({:.3e} N/m) for the {:.2e} N with which fluid and other grains press it in",
+                "contacts are too soft ({:.3e} N/m) for the {:.2e} N with which fluid and other grains press on it",
                 stiffness * units.si_stiffness(),
                 stiffness * sunk.overlap * units.si_force()
             )
@@ -165,7 +165,7 @@ impl Case<'_> {
             gained * si
         );
         let (cause, remedy) = self.overlap_at_start(grain, speed).unwrap_or_else(|| {
-            let cause = "a contact was pressed in deep and has sprung back".to_owned();
+            let cause = "a contact was compressed too far and has rebounded".to_owned();
             (cause, self.shorter(speed))
         });
         (symptom, cause, remedy)
@@ -175,19 +175,20 @@ impl Case<'_> {
     fn nowhere(grain: usize, position: &[f64; 3], is_fluid: bool) -> Words {
         let symptom = match position.iter().all(|x| x.is_finite()) {
             true => {
-                format!("grain {grain} (counted from 0) is farther off than cells can be numbered")
+                format!("grain {grain} (counted from 0) is too far away for cells to be numbered")
             }
-            false => format!("the place of grain {grain} (counted from 0) is not a number"),
+            false => format!("the position of grain {grain} (counted from 0) is not a number"),
         };
         match is_fluid {
             true => {
-                let cause = "the load of the fluid on a grain is not a number: the flow has broken"
-                    .to_owned();
+                let cause =
+                    "the hydrodynamic force on a grain is not a number: the flow is unstable"
+                        .to_owned();
                 (symptom, cause, "use a shorter time step or a finer grid".to_owned())
             }
             false => {
-                let cause = "contacts: all loads of the fluid are finite".to_owned();
-                let remedy = "look for grains at the same place at the start, and leave [contact] out to have it \
+                let cause = "contacts: all hydrodynamic forces are finite".to_owned();
+                let remedy = "look for grains at the same position at the start, and leave [contact] out to have it \
                               chosen";
                 (symptom, cause, remedy.to_owned())
             }
@@ -206,7 +207,7 @@ impl Case<'_> {
         }
         let units = &self.scene.units;
         let cause = format!(
-            "an overlap of {:.2e} m at the start, whose spring throws it at up to {:.2e} m/s",
+            "an overlap of {:.2e} m at the start, whose spring accelerates it to up to {:.2e} m/s",
             at_start.overlap * units.si_dx,
             thrown * units.si_velocity()
         );

@@ -238,7 +238,7 @@ fn a_grain_that_sinks_through_the_floor_stops_the_run_and_the_remedy_works() {
     assert!(last <= step && last + 20.0 > step, "last row {last}, stopped at {step}");
     // `check` has known it.
     let risky = warnings(&scene(SOFT));
-    assert!(risky.iter().any(|warning| warning.reason.contains("do not hold")), "{risky:?}");
+    assert!(risky.iter().any(|warning| warning.reason.contains("too soft for it")), "{risky:?}");
     // The remedy, followed.
     let harder = format!("contact.stiffness={}", number_after(&said, "contact.stiffness = "));
     budget.spend(400 * 1000);

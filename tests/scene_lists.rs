@@ -91,8 +91,8 @@ fn wrong() -> Vec<(Vec<u8>, Option<usize>, &'static str, &'static str)> {
         (format!("# a\n\n{HEAD}# b\n\n\n{GRAIN}# c\n9,9,9,x\n"), 9, "diameter (m) = \"x\"", ""),
         (format!("# a\n\n{HEAD}# b\n\n\n{GRAIN}# c\n9,9,9,x\n").replace('\n', "\r\n"), 9, "diameter (m) = \"x\"", ""),
         // Grains that the list itself cannot know to be wrong.
-        (format!("# a\n{HEAD}\n{GRAIN}3e-4,2.5e-4,1.0,2e-4\n").replace('\n', "\r\n"), 5, "outside the box", "move it"),
-        (format!("{HEAD}{GRAIN}9.5e-4,2.5e-4,2.5e-4,2e-4\n"), 3, "sticks", "move it"),
+        (format!("# a\n{HEAD}\n{GRAIN}3e-4,2.5e-4,1.0,2e-4\n").replace('\n', "\r\n"), 5, "outside the domain", "move it"),
+        (format!("{HEAD}{GRAIN}9.5e-4,2.5e-4,2.5e-4,2e-4\n"), 3, "extends", "move it"),
         (format!("{HEAD}{GRAIN}3e-4,1e-4,1e-4,2e-5\n"), 3, "cells across", "domain.dx"),
         (format!("{HEAD}\n{GRAIN}{GRAIN}"), 4, "overlap", "apart"),
     ];
@@ -134,7 +134,7 @@ fn densities_of_fixed_grains_are_said_to_mean_nothing() {
     let folder = folder("lists_density");
     let head = HEAD.replace('\n', ",density (kg/m3)\n");
     folder.write("grains.csv", format!("{head}3e-4,2.5e-4,2.5e-4,2e-4,2650\n"));
-    let told = "the densities in the list of grains[0].file mean nothing";
+    let told = "the densities in the list of grains[0].file are not used";
     let said = |arguments: &[&str]| {
         let output = psmrt_in(&folder.path(""), arguments);
         assert!(output.status.success(), "{}", stderr(&output));

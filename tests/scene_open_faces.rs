@@ -100,7 +100,7 @@ fn stream_started_from_rest_rings_as_long_as_check_says() {
     let at_rest = scene(PLUG);
     let due = warned(&at_rest, "the sound of that start").expect("a start from rest is warned of");
     // δu = u and δρ/ρ = u/c_s = 0.01 √3, by linear acoustics.
-    assert_eq!(said(&due.reason, "swings by up to ", "%"), 100.0, "{due:?}");
+    assert_eq!(said(&due.reason, "oscillates by up to ", "%"), 100.0, "{due:?}");
     assert_eq!(said(&due.reason, "the density by ", "%"), 1.7, "{due:?}");
     let left = said(&due.reason, "%, and ", "%") / 100.0;
     assert!(due.remedy.contains("initial.velocity = [6e-5, 0.0, 0.0]"), "{due:?}");

@@ -34,10 +34,10 @@ fn flows_beyond_the_map_are_warned_of_with_a_way_out() {
     // Srt at 0.5001 survives 0.03 and is right to 0.01; MRT is right to 0.28.
     let beyond = warned(&flow("srt", 0.5001, 0.15));
     let [(reason, remedy)] = &beyond[..] else { panic!("{beyond:?}") };
-    assert!(reason.contains("survived only up to 0.03"), "{reason}");
+    assert!(reason.contains("was stable only up to 0.03"), "{reason}");
     assert!(remedy.contains("d'Humieres") && remedy.contains("0.28"), "{remedy}");
     let wrong = warned(&flow("srt", 0.5001, 0.03));
-    assert!(wrong[0].0.contains("was right only up to 0.01"), "{wrong:?}");
+    assert!(wrong[0].0.contains("was accurate only up to 0.01"), "{wrong:?}");
     for (model, tau, speed) in [("mrt", 0.5001, 0.15), ("srt", 0.5001, 0.009), ("srt", 0.6, 0.1)] {
         assert_eq!(warned(&flow(model, tau, speed)), [], "{model} {tau} {speed}");
     }

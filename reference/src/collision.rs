@@ -12,7 +12,7 @@ use crate::rates::{RateError, Rates};
 /// Which collision the fluid uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Collision {
-    /// Single relaxation time `tau` (Eq. 2).
+    /// Single relaxation time `tau` (Eq. 2): the collision of Bhatnagar, Gross and Krook (BGK).
     Srt {
         /// Relaxation time, greater than 1/2.
         tau: f64,

@@ -92,14 +92,14 @@ pub const FACE_NAMES: [[&str; 2]; 3] = [["-x", "+x"], ["-y", "+y"], ["-z", "+z"]
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum DomainError {
     /// No cells along an axis.
-    #[error("the box of {cells:?} cells is empty: each axis needs at least 1 cell")]
+    #[error("the domain of {cells:?} cells is empty: each axis needs at least 1 cell")]
     Empty {
         /// Cells along x, y, z as given.
         cells: [usize; 3],
     },
     /// More cells than can be numbered.
     #[error(
-        "the box of {cells:?} cells is too large to be numbered: use fewer than 2^32 - 1 cells"
+        "the domain of {cells:?} cells is too large to be numbered: use fewer than 2^32 - 1 cells"
     )]
     TooLarge {
         /// Cells along x, y, z as given.

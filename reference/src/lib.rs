@@ -1,5 +1,6 @@
 //! The oracle of psmrt: the fluid and the grains of Fukumoto, Ohtsuka & Murakami's PS-MRT lattice Boltzmann method
-//! in plain double precision, one equation in one place.
+//! in plain double precision, one equation in one place. Grains are particle-resolved, by the partially saturated
+//! method (PSM, also immersed moving boundary), and move by DEM.
 //!
 //! | equation of the paper | what it says | file |
 //! |---|---|---|
@@ -7,7 +8,7 @@
 //! | D3Q19 | weights, density, momentum, viscosity | [`lattice`] |
 //! | Eq. 1 | streaming | [`streaming`], at the faces [`boundary`], where sound leaves [`non_reflecting`] |
 //! | Eq. 1, `G` | body force | [`forcing`] |
-//! | Eq. 2 | SRT | [`collision`] |
+//! | Eq. 2 | SRT (BGK) | [`collision`] |
 //! | Eq. 3 | MRT | [`collision`], `M` in [`moments`], `S-hat` in [`rates`] |
 //! | Eqs. 2, 3, `f_eq`, `m_eq` | equilibria | [`equilibrium`] |
 //! | Eqs. 4, 6 | PS-SRT, PS-MRT: fluid and solid part of a cell | [`cell_collision`] |

@@ -1,5 +1,10 @@
 //! The partially saturated (PS) term: how a solid acts on the fluid that shares its cells.
 //!
+//! The literature calls the method the partially saturated method (PSM) or partially saturated cells method, and
+//! counts it among the immersed moving boundary (IMB) methods. Its solid operators are numbered there: SC1 is
+//! [`SolidOperator::NonEquilibriumBounceBack`], SC2 [`SolidOperator::Superposition`]; SC3, bounce-back of the whole
+//! populations about the solid's velocity, is not offered.
+//!
 //! Source: Noble & Torczynski, Int. J. Mod. Phys. C 9, 1189 (1998), the paper's reference 5, as the
 //! paper uses it in Eqs. 4 to 6; see `ERRATA.md` for what is misprinted there. Inside this term the
 //! velocity of the fluid is the bare `j/rho`, also where a body force acts.
@@ -55,10 +60,10 @@ pub fn share_weight(
 /// Which collision takes place in the solid part of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SolidOperator {
-    /// Bounce-back of the non-equilibrium part, the paper's Eq. 5.
+    /// Bounce-back of the non-equilibrium part, the paper's Eq. 5 (SC1 of the literature).
     #[default]
     NonEquilibriumBounceBack,
-    /// Equilibrium of the solid plus the fluid's relaxed non-equilibrium part.
+    /// Equilibrium of the solid plus the fluid's relaxed non-equilibrium part (SC2).
     Superposition,
 }
 

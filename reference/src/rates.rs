@@ -87,7 +87,7 @@ impl Rates {
         Self { e: 1.19, eps: 1.4, q: 1.2, nu, pi: 1.4, m: 1.98 }.checked()
     }
 
-    /// Two relaxation times: even moments at `1/tau`, odd ones so that the product of
+    /// Two relaxation times (TRT): even moments at `1/tau`, odd ones so that the product of
     /// `1/s - 1/2` is `magic` (Λ).
     ///
     /// Source: Ginzburg, Verhaeghe & d'Humières, Commun. Comput. Phys. 3, 427 (2008). Λ = 3/16 puts

@@ -48,7 +48,7 @@ pub enum SolidError {
         allowed: &'static str,
     },
     /// A cell index outside the box.
-    #[error("solid {solid} names cell {cell}, but the box has {count} cells (0 to {count} - 1)")]
+    #[error("solid {solid} names cell {cell}, but the domain has {count} cells (0 to {count} - 1)")]
     NoSuchCell {
         /// Number of the solid.
         solid: usize,

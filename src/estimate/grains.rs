@@ -61,7 +61,7 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         Substeps::Fixed(_) => "as given",
     };
     let restitution =
-        format!("two of the lightest part at {:.3} of their speed", law.restitution(pair));
+        format!("coefficient of restitution {:.3}, two of the lightest", law.restitution(pair));
     let mut numbers = vec![
         number("free grains", count as f64, "", format!("of {}", part.grains.len())),
         number("density ratio", low, "", note),
@@ -95,13 +95,12 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
     let Some(part) = &scene.free else { return Vec::new() };
     let (law, settings) = (&part.setup.law, &part.settings);
     let inertia = match settings.internal_fluid {
-        InternalFluid::Lagged => "given back a step later",
-        InternalFluid::Kept => "kept",
+        InternalFluid::Lagged => "added back with a lag of one step",
+        InternalFluid::Kept => "retained",
     };
-    let averaged = if settings.average_loads { ", mean of two loads" } else { "" };
-    let mut models = vec![format!(
-        "free grains: DEM (motion = \"free\"); inertia of the fluid inside {inertia}{averaged}"
-    )];
+    let averaged = if settings.average_loads { ", mean force of two steps" } else { "" };
+    let mut models =
+        vec![format!("free grains: DEM (motion = \"free\"); internal mass {inertia}{averaged}")];
     let friction = match law.friction {
         Some(friction) => format!(
             "friction {}, tangential stiffness {:.4} of the normal one",
@@ -124,7 +123,8 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
     }
     match settings.gravity {
         Some(Gravity::Reduced { .. }) => {
-            models.push("gravity: reduced pressure, grains carry weight less buoyancy".to_owned());
+            models
+                .push("gravity: reduced pressure, weight less buoyancy acts on grains".to_owned());
         }
         Some(Gravity::Balanced { .. }) => {
             models.push(

@@ -12,7 +12,7 @@ use crate::scene::{Rhythm, Scene, What};
 pub fn models(scene: &Scene) -> Vec<String> {
     let setup = &scene.setup;
     let mut models = vec![match setup.collision {
-        Collision::Srt { .. } => "collision: SRT (collision.model)".to_owned(),
+        Collision::Srt { .. } => "collision: SRT, that is BGK (collision.model)".to_owned(),
         Collision::Mrt { rates } => format!(
             "collision: MRT, s_e {:.4}, s_eps {:.4}, s_q {:.4}, s_nu {:.4}, s_pi {:.4}, s_m {:.4}",
             rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m
@@ -35,7 +35,7 @@ pub fn models(scene: &Scene) -> Vec<String> {
             }
         ));
         if phase.solids.iter().any(psmrt_reference::solids::Solid::moves) {
-            models.push("moving grains: coverage is found again in every step".to_owned());
+            models.push("moving grains: coverage is computed in every step".to_owned());
         }
     }
     models.extend(grains::models(scene));
@@ -53,9 +53,9 @@ pub fn models(scene: &Scene) -> Vec<String> {
     }
     for record in &scene.records {
         let what = match record.what {
-            What::Box => "means over the box",
+            What::Box => "means over the domain",
             What::Profile { .. } => "a profile",
-            What::Loads => "loads on grains",
+            What::Loads => "hydrodynamic force and torque on grains",
             What::Slice { .. } => "pictures of a slice",
             What::Fields { .. } => "fields",
             What::Grains => "grains",
@@ -75,7 +75,7 @@ fn face_words(face: &Face) -> &'static str {
         Face::Periodic => "periodic",
         Face::Wall { velocity } if velocity.norm() > 0.0 => "moving wall, half-way bounce-back",
         Face::Wall { .. } => "wall, half-way bounce-back",
-        Face::FreeSlip => "mirror",
+        Face::FreeSlip => "free slip, mirror plane",
         Face::VelocityInlet { .. } => "velocity inlet, half-way bounce-back",
         Face::FreeOutflow => "free outflow, zero gradient",
         Face::Pressure { .. } => "pressure, anti-bounce-back",

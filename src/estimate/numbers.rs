@@ -21,7 +21,9 @@ fn si_length(scene: &Scene) -> (f64, &'static str) {
     });
     match walls.map(|axis| cells[axis]).min() {
         Some(gap) => (gap as f64 * dx, "the distance between the walls"),
-        None => (cells.into_iter().max().unwrap_or(1) as f64 * dx, "the longest side of the box"),
+        None => {
+            (cells.into_iter().max().unwrap_or(1) as f64 * dx, "the longest side of the domain")
+        }
     }
 }
 
@@ -76,7 +78,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
                 Shape::Cells { .. } => 0.0,
             })
             .sum();
-        numbers.push(number("solid fraction", volume / count as f64, "", "grains over box"));
+        numbers.push(number("solid fraction", volume / count as f64, "", "grains over domain"));
     }
     if let Some(bed) = bed(scene) {
         let [x, y, z] = bed.reaches;

@@ -254,7 +254,7 @@ fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), 
     } else {
         let like = match bed {
             Some(Bed { reaches: [x, y, z], .. }) => format!(
-                "the bed at cells {:.0} to {:.0}, {:.0} to {:.0}, {:.0} to {:.0} (the whole box has {whole:.3})",
+                "the bed at cells {:.0} to {:.0}, {:.0} to {:.0}, {:.0} to {:.0} (the whole domain has {whole:.3})",
                 x[0], x[1], y[0], y[1], z[0], z[1]
             ),
             None => "the grains".to_owned(),

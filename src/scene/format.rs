@@ -22,11 +22,11 @@ pub type Triple = [f64; 3];
 pub struct SceneFile {
     /// One line that says what the scene shows.
     pub title: Option<String>,
-    /// The box.
+    /// The domain.
     pub domain: DomainSection,
     /// The fluid.
     pub fluid: FluidSection,
-    /// How long a time step is.
+    /// The time step.
     pub time: TimeSection,
     /// The fluid's collision; MRT with d'Humieres' rates where the section is absent.
     #[serde(default)]
@@ -58,19 +58,19 @@ pub struct SceneFile {
     pub stop: StopSection,
     /// When to save the state of the run, to go on from after an interruption.
     pub checkpoint: Option<CheckpointSection>,
-    /// What computes it.
+    /// What computes the scene: the reference engine or a GPU.
     pub engine: Option<EngineSection>,
     /// An exact solution to compare with at the end.
     pub compare: Option<CompareSection>,
 }
 
-/// The box: its cells are cubes of edge `dx`. Give exactly one of `size` and `cells`.
+/// The domain, a box of cubic cells of edge `dx`. Give exactly one of `size` and `cells`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DomainSection {
     /// Edge of a cell, m.
     pub dx: f64,
-    /// Lengths of the box along x, y, z, m: each a whole number of `dx`.
+    /// Lengths of the domain along x, y, z, m: each a whole number of `dx`.
     pub size: Option<Triple>,
     /// Cells along x, y, z.
     pub cells: Option<[i64; 3]>,
@@ -92,9 +92,9 @@ pub struct FluidSection {
 pub struct TimeSection {
     /// Time step, s.
     pub dt: Option<f64>,
-    /// Relaxation time in time steps, above 0.5; errors of grains grow with `tau - 0.5`, the cost falls with it:
-    /// runs that none beats in both, with errors below 10 %, have 0.55 to 0.8 (golden/tradeoff/front.csv), and
-    /// `psmrt check` predicts the error of a scene, down to 0.503 with the default collision; `dt = (tau - 0.5)/3 dx2/kinematic_viscosity`.
+    /// Relaxation time in time steps, above 0.5: `dt = (tau - 0.5)/3 dx2/kinematic_viscosity`. Errors at grains grow
+    /// with `tau - 0.5`, and the cost falls with it: Pareto-optimal runs with errors below 10 % have tau 0.55 to 0.8
+    /// (golden/tradeoff/front.csv). `psmrt check` predicts the error of a scene, with the default collision for tau from 0.503.
     pub tau: Option<f64>,
     /// Velocity in cells per time step that `reference_velocity` becomes; 0.01 to 0.1 is usual.
     pub lattice_velocity: Option<f64>,
@@ -102,19 +102,20 @@ pub struct TimeSection {
     pub reference_velocity: Option<f64>,
 }
 
-/// The fluid's collision. At the same grid and relaxation time the defaults have the smallest error in every
-/// array, bed, duct and shaft of golden/tradeoff: that of `srt` is 1.1 times as large at tau 0.6 and 1.7 times
-/// at 1.5, that of `magic` 2.5 times at 0.6 and 1.2 times at 1.5 (medians). `srt` takes less time per step,
-/// `magic` is exact at plane walls along the grid; `psmrt plan` weighs them for a scene.
+/// The fluid's collision. On the same grid and at the same tau the defaults have the smallest error in every array,
+/// bed, duct and shaft of golden/tradeoff. The error of `srt` (BGK) is 1.1 times as large at tau 0.6 and 1.7 times at
+/// 1.5, that of `magic` (TRT) 2.5 times at 0.6 and 1.2 times at 1.5 (medians). `srt` takes less time per step, `magic`
+/// is exact at plane walls along the grid; `psmrt plan` compares them for a scene.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CollisionSection {
-    /// `mrt` (multiple relaxation times, the default) or `srt` (a single one).
+    /// `mrt` (multiple relaxation times, the default) or `srt` (a single one: BGK).
     #[serde(default)]
     pub model: CollisionModel,
-    /// With `mrt`, the preset of the free rates: `dhumieres` (the default), `magic` or `srt`.
+    /// With `mrt`, the preset of the free rates: `dhumieres` (the default), `magic` (two relaxation times: TRT) or
+    /// `srt`.
     pub rates: Option<RatePreset>,
-    /// With `rates = "magic"`: the parameter Lambda, above 0; 3/16 = 0.1875 puts plane walls right.
+    /// With `rates = "magic"`: the parameter Lambda, above 0; 3/16 = 0.1875 puts plane walls exactly half-way between nodes.
     pub magic: Option<f64>,
     /// With `mrt`: rate of the energy, in (0, 2), instead of the preset's.
     pub s_e: Option<f64>,
@@ -135,7 +136,7 @@ pub enum CollisionModel {
     /// Multiple relaxation times.
     #[default]
     Mrt,
-    /// A single relaxation time.
+    /// A single relaxation time (BGK).
     Srt,
 }
 
@@ -146,15 +147,15 @@ pub enum RatePreset {
     /// d'Humieres et al. 2002: 1.19, 1.4, 1.2, 1.4, 1.98.
     #[default]
     Dhumieres,
-    /// Two relaxation times with a given Lambda.
+    /// Two relaxation times (TRT) with a given magic parameter Lambda.
     Magic,
     /// All rates 1/tau.
     Srt,
 }
 
-/// The six faces. Free grains are held back by all that are not periodic: by walls, which they touch
-/// and rub against; by mirrors, where they touch their own image; by inlets, outflows and pressure
-/// faces as by a sieve, which only the fluid passes.
+/// The six faces. Every face that is not periodic stops free grains: at walls they are in contact, with friction; at
+/// mirror planes (`free_slip`) they are in contact with their own mirror image; inlets, outflows and pressure faces
+/// act on them as a sieve, which lets only the fluid through.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FacesSection {
@@ -182,10 +183,10 @@ pub struct FaceSection {
     pub velocity: Option<Triple>,
     /// Pressure above that of the fluid at its reference density, at a `pressure` face, Pa.
     pub pressure: Option<f64>,
-    /// At a `pressure` face: whether the flow there does not change along the normal (it is developed). Then the shear
-    /// stress of the cells inside is let through, and Poiseuille flow passes as it is; without it (the default) the
-    /// face lets no shear stress through, like the mouth of a jet, and a channel is shorter by a twentieth of its
-    /// width at each end.
+    /// At a `pressure` face: whether the flow is developed there, that is, does not change along the normal. Then the
+    /// face transmits the shear stress of the cells inside, and Poiseuille flow passes unchanged. Without it (the
+    /// default) the face transmits no shear stress, as at the mouth of a jet: each end makes a channel effectively
+    /// shorter by a twentieth of its width.
     pub developed: Option<bool>,
     /// At a `pressure` face: whether sound leaves through it (false where absent). For a while the pressure there
     /// then follows the wave that arrives; over times longer than `memory` it is the one given. Shear stress is let
@@ -229,7 +230,7 @@ pub struct BodyForceSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialSection {
-    /// Velocity of the fluid everywhere, m/s; if a grain is free or prescribed, outside the grains only:
-    /// what grains cover starts with them.
+    /// Velocity of the fluid everywhere, m/s. If a grain is free or prescribed: outside the grains only; the fluid
+    /// inside a grain starts with the grain's motion.
     pub velocity: Triple,
 }

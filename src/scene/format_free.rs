@@ -5,32 +5,33 @@ use serde::Deserialize;
 
 use super::format::Triple;
 
-/// How free grains touch each other, grains that are held, and the faces of the box. Give the normal
-/// spring by `stiffness` or by `duration`, the dashpot by `damping` or by `restitution`. A free grain that
-/// lies deeper than half its radius in another or in a face, or is thrown by a contact, stops the run.
+/// Contacts of free grains with each other, with fixed and prescribed grains, and with the faces of the domain: a
+/// spring and a dashpot (Voigt) with Coulomb friction. Give the normal spring by `stiffness` or by `duration`, the
+/// dashpot by `damping` or by `restitution`. A free grain that overlaps another grain or a face by more than half its
+/// radius, or that a contact ejects, stops the run.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactSection {
-    /// Stiffness of the normal spring, N/m. Where neither it nor `duration` is given, contacts last 10 time
-    /// steps, or less if weight asks for it: a bed of all free grains at rest overlaps by 0.3 % of a diameter
-    /// at its bottom (the strongest chains of force by about 1 %), the heaviest grain at rest on the smallest
-    /// by 1 %, and when it falls on it by 5 %, at most.
+    /// Stiffness of the normal spring, N/m. Where neither it nor `duration` is given, contacts last 10 time steps, or
+    /// fewer if the weight of the grains requires stiffer ones, so that overlaps are at most: in a bed of all free
+    /// grains at rest 0.3 % of a diameter at its bottom (about 1 % in the strongest force chains), the heaviest grain
+    /// at rest on the smallest 1 %, and when it falls on it 5 %.
     pub stiffness: Option<f64>,
     /// With `stiffness`: damping of the normal dashpot, N s/m.
     pub damping: Option<f64>,
-    /// Instead of `stiffness`: how long two of the lightest free grains touch in a central impact, s; up to a
-    /// million time steps. Contacts down to 0.03 time steps are right (golden/stability/contact.csv).
+    /// Instead of `stiffness`: duration of the contact of two of the lightest free grains in a central impact, s; up to
+    /// a million time steps. Contacts as short as 0.03 time steps are resolved correctly (golden/stability/contact.csv).
     pub duration: Option<f64>,
-    /// Instead of `damping`: speed of parting over speed of meeting of such an impact in vacuum, 0.01
-    /// to 1; 0.5 where neither is given.
+    /// Instead of `damping`: coefficient of restitution of such an impact in vacuum, 0.01 to 1; 0.5 where neither is
+    /// given.
     pub restitution: Option<f64>,
     /// Coulomb's coefficient of friction, 0 for smooth grains; 0.5 where absent.
     pub friction: Option<f64>,
-    /// Tangential over normal stiffness, and damping alike, 0.001 to 10; 2/7 where absent: then a sphere
-    /// swings tangentially in the time in which it swings normally.
+    /// Ratio of tangential to normal stiffness, and of the dampings, 0.001 to 10; 2/7 where absent, with which a
+    /// sphere's tangential and normal oscillations have the same period.
     pub tangential_ratio: Option<f64>,
-    /// Coefficient of rolling resistance: the tangent of the slope down which a grain just rolls;
-    /// grains roll freely where absent.
+    /// Coefficient of rolling resistance: the tangent of the slope on which a grain just begins to roll; grains roll
+    /// freely where absent.
     pub rolling_resistance: Option<f64>,
     /// Sub-steps of the grains in a time step; as many as the contacts need (25 in the shortest) where
     /// absent. Fewer than 10 in the shortest contact are refused.
@@ -44,7 +45,7 @@ pub struct ContactSection {
 pub struct LubricationSection {
     /// Gap from which the correction acts, m; the edge of a cell where absent.
     pub cutoff_gap: Option<f64>,
-    /// Gap below which it grows no more, m: the roughness of the grains; a thousandth of the smallest
+    /// Gap below which it no longer grows, m: the roughness of the grains; a thousandth of the smallest
     /// radius where absent.
     pub smallest_gap: Option<f64>,
 }
@@ -55,18 +56,18 @@ pub struct LubricationSection {
 pub struct GravitySection {
     /// Acceleration, m/s2.
     pub acceleration: Triple,
-    /// `reduced` (the default: grains carry their weight less their buoyancy, the pressure is that
-    /// above the hydrostatic one) or `body_force` (fluid and grains carry their weight; the buoyancy
+    /// `reduced` (the default: the weight of a grain less its buoyancy acts on it, and the pressure is that above the
+    /// hydrostatic one) or `body_force` (gravity acts on fluid and grains; the buoyancy
     /// is too small on coarse grids: 58, 80 and 92 % of the displaced weight at 4, 8 and 16 cells per
     /// diameter and tau = 1, tests/oracle/coupling.rs).
     #[serde(default)]
     pub form: GravityForm,
-    /// `true` where the domain is periodic along gravity and nothing else holds up what is in it: a uniform
-    /// pressure gradient, which acts on fluid and grains alike, carries the net weight (weight less buoyancy) of
-    /// all grains, as in a tall vessel. The total momentum then stays as it starts and grains settle through the
-    /// fluid; without it, fluid and grains fall together faster and faster. `false` where absent. Needs the
-    /// form `reduced`, free grains only, and faces that are periodic or `free_slip`. Settling velocities of
-    /// arrays are quoted against the mean flux: subtract the superficial velocity of a `box` record.
+    /// `true` for a domain that is periodic along gravity, where no wall supports the fluid and the grains: a uniform
+    /// pressure gradient on fluid and grains balances the net weight (weight less buoyancy) of all grains, as in a tall
+    /// vessel. Total momentum is then conserved and grains settle through the fluid; without it, fluid and grains
+    /// accelerate downwards together. `false` where absent. Requires the form `reduced`, free grains only, and faces
+    /// that are periodic or `free_slip`. Settling velocities of arrays are quoted relative to the mean flux: subtract
+    /// the superficial velocity of a `box` record.
     #[serde(default)]
     pub balance: bool,
 }
@@ -82,21 +83,23 @@ pub enum GravityForm {
     BodyForce,
 }
 
-/// How fluid and free grains act on each other. With either `internal_fluid` a grain of 1 to 10 times the fluid's
-/// density survives and keeps momentum, tau 0.501 to 2; lighter ones do so down to 0.7 times with `lagged` (tau to 1;
-/// 0.8 times at 2), and with `kept` down to 0.5 times at tau 0.51, 0.6 at 0.55, 0.7 at 0.6 and 0.8, 0.8 at 1
-/// (golden/stability/movers.csv), below which they are thrown about until the run breaks; `lagged` is the default
-/// because a released sphere then starts as the exact solution says, within 2.5 % of its terminal velocity, while
-/// `kept` is too slow by more than 1.5 times that (tests/oracle/coupling.rs). Averaged loads with `lagged` let the spin
-/// of a neutrally buoyant grain swing.
+/// How fluid and free grains act on each other. With either `internal_fluid` the coupling is stable and conserves
+/// momentum for grains of 1 to 10 times the fluid's density, at tau 0.501 to 2. For lighter grains it is stable down to
+/// 0.7 times the fluid's density with `lagged` (tau to 1; 0.8 times at 2), and with `kept` down to 0.5 times at tau
+/// 0.51, 0.6 at 0.55, 0.7 at 0.6 and 0.8, 0.8 at 1 (golden/stability/movers.csv); below that, their velocity
+/// oscillates with growing amplitude until the run stops. `lagged` is the default because a released sphere then
+/// accelerates as the exact solution does, within 2.5 % of its terminal velocity; with `kept` it is too slow by more
+/// than 1.5 times that (tests/oracle/coupling.rs). With `lagged` and averaged forces the angular velocity of a neutrally
+/// buoyant grain oscillates.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingSection {
-    /// Inertia of the fluid inside a grain: `lagged` (given back a step later, the default) or `kept`.
+    /// Inertia of the fluid inside a grain: `lagged` (added back with a lag of one step, the default) or `kept` (retained
+    /// by the grain).
     #[serde(default)]
     pub internal_fluid: InternalFluidName,
-    /// Whether the mean of the last two loads drives a grain, instead of the last; `false` where
-    /// absent.
+    /// Whether the mean hydrodynamic force and torque of the last two steps acts on a grain, instead of those of the
+    /// last; `false` where absent.
     #[serde(default)]
     pub average_loads: bool,
 }
@@ -105,9 +108,9 @@ pub struct CouplingSection {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum InternalFluidName {
-    /// Given back one step later.
+    /// Added back with a lag of one step.
     #[default]
     Lagged,
-    /// Stays with the grain.
+    /// Retained by the grain.
     Kept,
 }

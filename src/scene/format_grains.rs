@@ -9,7 +9,7 @@ use super::format::Triple;
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrainsSection {
-    /// `sphere` (one grain), `csv` (a list in a file), `array` (a regular array that fills the box),
+    /// `sphere` (one grain), `csv` (a list in a file), `array` (a regular array that fills the domain),
     /// `random` (a random suspension) or `bed` (grains that have settled onto the face `z_low`).
     pub kind: GrainsKind,
     /// With `sphere`: its centre, m.
@@ -25,36 +25,36 @@ pub struct GrainsSection {
     pub lattice: Option<LatticeName>,
     /// With `array`: unit cells along x, y, z; 1 each where absent. They must come out as cubes.
     pub counts: Option<[i64; 3]>,
-    /// With `random` and `bed`, instead of `diameter`: smallest and largest diameter, m; by number
-    /// all between are as frequent.
+    /// With `random` and `bed`, instead of `diameter`: smallest and largest diameter, m; uniformly distributed by
+    /// number between them.
     pub diameter_range: Option<[f64; 2]>,
     /// With `array`, instead of `diameter`, and with `random`, instead of `count`: volume of the
-    /// grains over that of the box, in (0, 1). A suspension above 0.25 needs a box that is periodic
+    /// grains over that of the domain, in (0, 1). A suspension above 0.25 needs a domain that is periodic
     /// along all axes.
     pub solid_fraction: Option<f64>,
     /// With `random` and `bed`: number of grains.
     pub count: Option<i64>,
-    /// With `random` and `bed`: seed of places and sizes, a whole number; 1 where absent. The same
+    /// With `random` and `bed`: seed of positions and sizes, a whole number; 1 where absent. The same
     /// seed gives the same grains.
     pub seed: Option<i64>,
     /// With `random`: least distance between surfaces, m; 0 where absent.
     pub gap: Option<f64>,
-    /// With `bed`: friction while it settles; 0.5 where absent, 0 packs dense.
+    /// With `bed`: friction while it settles; 0.5 where absent; 0 gives the densest packing.
     pub packing_friction: Option<f64>,
-    /// `fixed` (the default), `prescribed` (moves as `velocity` and `spin` say) or `free` (moves as
-    /// fluid, neighbours and gravity push it). A prescribed sphere comes in again at periodic faces and may
-    /// leave through `pressure` and `free_outflow`; in any other face, or in a sphere that is not free, it
-    /// stops the run once it is more than 1 % of a diameter deep.
+    /// `fixed` (the default), `prescribed` (moves with the given `velocity` and angular velocity `spin`) or `free`
+    /// (moves under hydrodynamic force, contacts and gravity). A prescribed sphere re-enters at periodic faces and may
+    /// leave through `pressure` and `free_outflow` faces; if it overlaps any other face, or a sphere that is not free,
+    /// by more than 1 % of its diameter, the run stops.
     #[serde(default)]
     pub motion: Motion,
-    /// With `free`: density of the grains, kg/m3; not where a `csv` file has a column for it.
+    /// With `free`: density of the grains, kg/m3; not together with a `csv` file that has a column for it.
     pub density: Option<f64>,
-    /// With `prescribed`: velocity, m/s; with `free` that at the start. The fluid that a grain covers
-    /// starts with the grain, that outside with `initial.velocity`; what has to give way takes its share
-    /// within a few steps, by sound: alone, a free grain of r times the fluid's density keeps
-    /// r/(r + 1/2) of its velocity against the fluid's (tests/oracle/free_start.rs).
+    /// With `prescribed`: velocity, m/s; with `free`: velocity at the start. The fluid inside a grain starts with the
+    /// grain, the fluid outside with `initial.velocity`. The fluid that a free grain must displace takes momentum from
+    /// it within a few steps, as sound: a single grain of r times the fluid's density keeps r/(r + 1/2) of its velocity
+    /// relative to the fluid (added mass; tests/oracle/free_start.rs).
     pub velocity: Option<Triple>,
-    /// With `prescribed`: angular velocity, rad/s; with `free` that at the start.
+    /// With `prescribed`: angular velocity, rad/s; with `free`: angular velocity at the start.
     pub spin: Option<Triple>,
 }
 
@@ -90,27 +90,28 @@ pub enum LatticeName {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum Motion {
-    /// It is held.
+    /// It does not move.
     #[default]
     Fixed,
-    /// It moves as told.
+    /// It moves with a given velocity.
     Prescribed,
-    /// It moves as fluid, neighbours and gravity push it.
+    /// It moves under hydrodynamic force, contacts and gravity.
     Free,
 }
 
-/// How grains act on the fluid. The defaults are what converges (golden/tradeoff): with `solid_fraction` the
-/// flow through an array is up to 55 % too slow at tau 0.6 and up to 7 times too fast at 1.5, and right in
-/// between by cancellation only; `superposition` errs 1.4 to 2.9 times as much as the default, flow by flow; sampled solid
-/// fractions change the error by a fifth with 2 points along each axis, and by 2 % with 5 (medians).
+/// How grains act on the fluid: the partially saturated method (PSM), one of the immersed moving boundary (IMB)
+/// methods. The defaults converge with the grid (golden/tradeoff). With `solid_fraction` the flow through an array is
+/// up to 55 % too slow at tau 0.6 and up to 7 times too fast at 1.5; in between it is right by cancellation only. With
+/// `superposition` errors are 1.4 to 2.9 times those of the default, depending on the flow. Sampled solid fractions
+/// change the error by a fifth with 2 points along each axis, and by 2 % with 5 (medians).
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolidSection {
-    /// Weight of the solid in a cell: `noble_torczynski` (the default) or `solid_fraction`.
+    /// Weight `B` of the solid in a cell: `noble_torczynski` (the default) or `solid_fraction`.
     #[serde(default)]
     pub weighting: WeightingName,
-    /// Collision in the solid: `bounce_back` of the non-equilibrium part (the default) or
-    /// `superposition`.
+    /// Collision in the solid: `bounce_back` of the non-equilibrium part (SC1 of the literature, the default) or
+    /// `superposition` (SC2).
     #[serde(default)]
     pub operator: OperatorName,
     /// How the solid fraction of a cell is found: `exact` (the default) or `sampled`.
@@ -135,10 +136,10 @@ pub enum WeightingName {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum OperatorName {
-    /// Bounce-back of the non-equilibrium part.
+    /// Bounce-back of the non-equilibrium part (SC1).
     #[default]
     BounceBack,
-    /// Superposition.
+    /// Superposition (SC2).
     Superposition,
 }
 

@@ -12,11 +12,11 @@ use super::format::Triple;
 pub struct RecordSection {
     /// Name of the record and of its file: letters, digits, `-` and `_`.
     pub name: String,
-    /// `box` (means over the box: the superficial velocity is the mass flux over the fluid's density, cells in
-    /// grains included: the mean of their momentum before and after a collision; that of the first row is what
-    /// the flow starts with), `profile` (values along a line), `loads` (place, motion, force and
-    /// torque of each grain), `grain_means` (means over the free grains), `slice` (a picture of a
-    /// plane), `fields` (all cells) or `grains` (all grains, for ParaView).
+    /// `box` (means over the domain, with the superficial velocity), `profile` (values along a line), `loads` (position,
+    /// motion, and hydrodynamic force and torque of each grain), `grain_means` (means over the free grains), `slice` (a
+    /// picture of a plane), `fields` (all cells) or `grains` (all grains, for ParaView). The superficial velocity is
+    /// the mass flux over the fluid's density, averaged over all cells, those in grains included; the mass flux is the
+    /// mean of the momentum before and after a collision. The first row holds the values at the start.
     pub kind: RecordKind,
     /// Time between rows, s: rounded to whole time steps, at least one.
     pub every: Option<f64>,
@@ -25,10 +25,10 @@ pub struct RecordSection {
     /// With `profile`: the axis along which the line runs; with `slice`: the axis that the plane is
     /// normal to.
     pub axis: Option<AxisName>,
-    /// With `profile` and `slice`: a point on the line or plane, m; the middle of the box where absent. Between
-    /// the centres of cells (in the middle of an even number of them, say) values are interpolated linearly from
-    /// the two or four nearest lines or planes of cells, those in grains included, across periodic faces too;
-    /// nearer than half a cell to other faces the two nearest ones are continued linearly.
+    /// With `profile` and `slice`: a point on the line or plane, m; the middle of the domain where absent. Between
+    /// the centres of cells (for instance in the middle of an even number of them) values are interpolated linearly from
+    /// the two or four nearest lines or planes of cells, those in grains included, also across periodic faces;
+    /// within half a cell of other faces they are extrapolated linearly from the two nearest ones.
     pub point: Option<Triple>,
     /// With `slice`: what the colours show; `speed` where absent.
     pub quantity: Option<Quantity>,
@@ -45,19 +45,19 @@ pub struct RecordSection {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum RecordKind {
-    /// Means over the box.
+    /// Means over the domain.
     Box,
     /// Pressure and velocity along a line of cells.
     Profile,
-    /// Place and motion of each grain, and force and torque of the fluid on it in the last step.
+    /// Position and motion of each grain, and the hydrodynamic force and torque on it in the last step.
     Loads,
     /// A picture (SVG) of a plane of cells; grains are grey, with their outlines.
     Slice,
     /// Pressure, velocity and solid fraction of all cells.
     Fields,
-    /// Place, motion and load of all grains.
+    /// Position, motion, hydrodynamic force and torque of all grains.
     Grains,
-    /// Place, motion, energy and contacts of the free grains on the mean.
+    /// Means over the free grains: position, motion, energy and contacts.
     GrainMeans,
 }
 
@@ -112,17 +112,17 @@ pub struct StopSection {
     pub steady: Option<SteadySection>,
 }
 
-/// Steady: a column of a record is within `tolerance` of the value it goes to. That is estimated from the last
-/// half of the time since the start, however often rows are taken: an approach that falls by the same factor over
-/// equal times goes on falling so; what goes to and fro may do so again as far as in the last quarter. The estimate
-/// must stay within the tolerance for an eighth of the time. A run that ends at `time` or `steps` sooner says
-/// that it is not steady, and by how much; its exit code is 3.
+/// Steady: a column of a record is within `tolerance` of its final value. The final value is estimated from the last
+/// half of the time since the start, however often samples are taken: an exponential approach is extrapolated, and an
+/// oscillation is taken to go on with the amplitude of the last quarter. The estimate must stay within the tolerance
+/// for an eighth of the time. A run that reaches `time` or `steps` first reports that it is not steady, and by how
+/// much; its exit code is 3.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SteadySection {
     /// Name of a record of kind `box`, `grain_means` or `loads`.
     pub record: String,
-    /// One of its columns, for example `superficial_velocity_x`; of `loads` a force, summed over all
+    /// One of its columns, for example `superficial_velocity_x`; of `loads` a component of force, summed over all
     /// grains.
     pub column: String,
     /// Largest distance from the final value, as a share of the value, in (0, 1).
@@ -140,8 +140,8 @@ pub struct CheckpointSection {
     pub every_minutes: Option<f64>,
 }
 
-/// What computes the scene; `reference` where the section is absent. Single precision changes none of the errors
-/// of golden/tradeoff by more than 1e-4 (effects.csv), the double precision of `reference` is what it is judged by.
+/// What computes the scene; `reference` where the section is absent. Single precision changes none of the errors of
+/// golden/tradeoff by more than 1e-4 (effects.csv); it is judged by the double precision of `reference`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EngineSection {

@@ -72,11 +72,11 @@ pub fn reference() -> String {
 }
 
 const LIMITS_HEAD: &str = "
-## How fast a flow may be
+## Up to what velocity a flow is stable
 
-The largest velocity, in cells per time step, that survived in the maps of `golden/stability` (`psmrt
-stability`): of a shear layer, and the superficial one through an ordered bed of porosity 0.4. `psmrt check`
-warns of scenes beyond. What is accurate ends earlier: below 0.05 errors of compressibility vanish.
+The largest velocity, in cells per time step, at which runs of the maps in `golden/stability` stayed stable: that of
+a shear layer, and the superficial velocity through an ordered bed of porosity 0.4. `psmrt check` warns of scenes
+beyond. Accuracy ends earlier: errors of compressibility are negligible below 0.05 only.
 
 | tau | shear layer, SRT | shear layer, MRT | bed, SRT | bed, MRT |
 |---|---|---|---|---|
@@ -86,17 +86,17 @@ const RECORDS_HEAD: &str = "
 ## Columns of the records
 
 All tables begin with `time (s),step`. The superficial velocity is the mean mass flux, grains
-included, over the density of the fluid. Loads are those of the fluid on the grain in the last step; of a
-grain whose centre lies on a mirror plane, on the half that is computed. A load is what the fluid in motion and
-its pressure do to the grain. Under a body force G (per volume, [body_force] or from [gravity]) it leaves out the
-buoyancy in the pressure gradient that the force stands for: the fluid carries only `1 - B` of it in cells of
-which grains take `B`, and `displaced_force` is the rest, `G ΣB` over the cells of the grain, where it is now. Force
-and displaced force of all grains add up to the driving force of the whole domain, G V, less what the momentum of
-the fluid gains and what walls take: to the last digit, when a periodic box is steady. (Without a body force it is
-0.) Places of moving grains go on
-counting where they cross a periodic face. Pressure is that above the fluid at its reference density.
+included, over the density of the fluid. `spin` is the angular velocity. Force and torque are those of the fluid
+(hydrodynamic: viscous stress and pressure) on the grain in the last step; of a grain whose centre lies on a mirror
+plane, on the half that is computed. Under a body force G (per volume, [body_force] or from [gravity]) they leave out
+the buoyancy in the pressure gradient that G stands for: in a cell in which grains have the weight `B`, G acts on the
+share `1 - B` only. `displaced_force` is the rest, `G ΣB` over the cells of the grain at its present position (0
+without a body force). Force and displaced force of all grains add up to the driving force of the whole domain, G V,
+less the rate of change of the fluid's momentum and the force on walls; in a steady periodic domain the sum is G V to
+round-off. Positions of moving grains are not wrapped at periodic faces. Pressure is that above the fluid
+at its reference density.
 `grain_means` are means and sums over the free grains; contacts are those between grains and with faces,
-and the overlap is given over the mean diameter of the two.
+and the overlap is divided by the mean diameter of the two.
 
 ";
 
@@ -114,7 +114,7 @@ pub(super) enum Kind<'a> {
     Sections(&'a Value),
     /// One of some words.
     Word(Vec<&'a str>),
-    /// So many numbers, whole ones or any.
+    /// A fixed count of numbers, whole or not.
     Numbers {
         /// How many.
         count: u64,

@@ -121,11 +121,11 @@ impl fmt::Display for Stopped {
             Symptom::NoDensity(rho) => write!(out, "density = {rho:.3e} must be positive")?,
             Symptom::TooFast(speed) => write!(
                 out,
-                "speed = {speed:.3} lattice units is past the limit (the speed of sound is 0.577)"
+                "speed = {speed:.3} lattice units exceeds the limit (the speed of sound is 0.577)"
             )?,
             Symptom::MeanDensity(ratio) => write!(
                 out,
-                "the mean density is {ratio:.3} times its first value and must stay within 0.5 to 2"
+                "the mean density is {ratio:.3} times its initial value and must stay within 0.5 to 2"
             )?,
         }
         write!(out, ". Probable cause: ")?;
@@ -152,41 +152,41 @@ impl fmt::Display for Stopped {
             ),
             Cause::DensityDrift { ratio } => write!(
                 out,
-                "the mean density has drifted to {ratio:.3} times its first value; a velocity \
-                 inlet with a free outflow does not hold it. Use a pressure outlet"
+                "the mean density has drifted to {ratio:.3} times its initial value; a velocity \
+                 inlet with a free outflow does not determine it. Use a pressure outlet"
             ),
             Cause::ImpulsiveStart { face, speed, ratio } => write!(
                 out,
                 "the sound of an impulsive start. The inlet at face {face} moves at {speed:.3}; where the \
-                 fluid starts otherwise, at rest for example, a wave of that velocity and of {:.3} times \
-                 the density runs to and fro between the inlet and the pressure face, and hardly decays (the mean \
-                 density is {ratio:.3} times its first value). Start the fluid with the inlet's \
+                 fluid starts with another velocity, at rest for example, a wave of that velocity and of {:.3} times \
+                 the density travels back and forth between the inlet and the pressure face, and hardly decays (the mean \
+                 density is {ratio:.3} times its initial value). Start the fluid with the inlet's \
                  velocity, or use a smaller velocity (a smaller time step)",
                 3.0_f64.sqrt() * speed
             ),
             Cause::ResistedInlet { face, ratio } => write!(
                 out,
                 "the inlet at face {face} pushes against too much resistance: the mean density is \
-                 {ratio:.3} times its first value, and must stay near 1 for a nearly incompressible \
+                 {ratio:.3} times its initial value, and must stay near 1 for a nearly incompressible \
                  flow. Use a smaller time step, which lowers the pressure in lattice units, or a \
                  slower flow"
             ),
             Cause::LightGrain { solid, ratio } => write!(
                 out,
-                "free grain {solid} has {ratio:.2} times the density of the fluid: grains this light \
-                 are driven by the inertia of the fluid inside them, whatever the time step. Make \
+                "free grain {solid} has {ratio:.2} times the density of the fluid: for grains this light \
+                 the inertia of the fluid inside makes the coupling unstable, whatever the time step. Make \
                  it denser, or fix it or prescribe its motion"
             ),
             Cause::EndlessFall { axis, speed } => write!(
                 out,
-                "grains and fluid fall together, faster and faster ({speed:.3} on the mean): the box \
-                 is periodic along gravity ({axis}), and nothing holds them back, whatever the time \
+                "grains and fluid accelerate together (mean speed {speed:.3}): the domain \
+                 is periodic along gravity ({axis}), and nothing balances their weight, whatever the time \
                  step. Balance the weight (`gravity.balance`), put walls at the ends of {axis} or fix a grain"
             ),
             Cause::BodyForce { acceleration } => write!(
                 out,
-                "the body force gains {acceleration:.3e} per step and nothing held the fluid \
-                 back. Use a weaker force or a smaller time step"
+                "the body force adds a velocity of {acceleration:.3e} per step and nothing slowed the fluid \
+                 down. Use a weaker force or a smaller time step"
             ),
             Cause::Unresolved { grid_reynolds } => write!(
                 out,

@@ -12,7 +12,7 @@ use crate::tradeoff::model::Models;
 use crate::tradeoff::trial::collision_of;
 
 /// A predicted error above this is warned of. Laws of the drag of beds differ by as much from each other, so
-/// that a larger one spoils what one can compare with; and of the runs that none beats in error and cost
+/// that a larger one spoils what one can compare with; and of the Pareto-optimal runs
 /// (golden/tradeoff/front.csv) those below it are affordable.
 pub(crate) const TOO_LARGE: f64 = 0.1;
 
@@ -116,7 +116,7 @@ fn because(facts: &Facts) -> String {
 /// this either, nor have a coarser grid.
 const AT_MOST: f64 = 2.0 * TOO_LARGE;
 
-/// The cheapest way that is not warned of, with the scene's collision; else the most accurate.
+/// The cheapest option that causes no warning, with the scene's collision; else the most accurate.
 fn remedy(outlook: &Outlook) -> String {
     let Outlook { facts, models, collision, kernel, .. } = outlook;
     let engine = if *kernel { "wgpu" } else { "reference" };
@@ -131,8 +131,8 @@ fn remedy(outlook: &Outlook) -> String {
     };
     let now = as_it_is(facts, models, *collision, &speed);
     if now.as_ref().is_ok_and(|now| best.error >= now.error) {
-        return "no grid that fills the box and no relaxation time of the evidence has a smaller error: choose a \
-                box whose sides share a larger divisor"
+        return "no grid that fits the domain and no relaxation time of the evidence has a smaller error: choose a \
+                domain whose sides share a larger divisor"
             .to_owned();
     }
     let [nx, ny, nz] = best.cells;
@@ -148,7 +148,7 @@ fn remedy(outlook: &Outlook) -> String {
         |now| format!(" for {:.1} times the work", best.seconds / now.seconds),
     );
     format!(
-        "{} makes it {} ({} to {}){work}; `psmrt plan` finds the cheapest way to an error",
+        "{} makes it {} ({} to {}){work}; `psmrt plan` finds the cheapest settings for an error",
         changes.join(" with "),
         percent(best.error),
         percent(best.band[0]),

@@ -1,4 +1,4 @@
-//! Warnings of contacts that are too soft or too dear.
+//! Warnings of contacts that are too soft or too expensive.
 
 use psmrt_reference::grains::hold::DEEPEST;
 
@@ -21,7 +21,8 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         let reason = format!(
             "the grains make {count} sub-steps in a time step: they may cost more than the fluid"
         );
-        let remedy = "a shorter time step takes fewer each, longer contacts (contact.duration) too";
+        let remedy =
+            "a shorter time step needs fewer of them, and so do longer contacts (contact.duration)";
         warnings.push(warning(reason, remedy));
     }
     warnings
@@ -36,11 +37,11 @@ fn softness(scene: &Scene, part: &FreePart) -> Option<Warning> {
     let lost = 0.5 * DEEPEST;
     let reason = if at_rest > lost {
         format!(
-            "weight presses grains into each other by {at_rest:.1e} of a diameter: contacts do not hold them, and the \
-             run stops when a grain is {lost} of its diameter deep in another or in a face"
+            "weight makes grains overlap by {at_rest:.1e} of a diameter: the contacts are too soft for it, and the \
+             run stops when a grain overlaps another or a face by {lost} of its diameter"
         )
     } else if at_rest > 1.01 * ONE_ON_ONE {
-        format!("weight presses grains into each other by {at_rest:.1e} of a diameter")
+        format!("weight makes grains overlap by {at_rest:.1e} of a diameter")
     } else if in_impact > lost {
         format!(
             "a grain that falls on the smallest one overlaps it by {in_impact:.1e} of its diameter; the run stops at \

@@ -16,25 +16,25 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         return Vec::new();
     }
     let known = match limit {
-        Some(limit) => format!("at tau = {tau:.4} grains were right down to {limit} times"),
+        Some(limit) => format!("at tau = {tau:.4} the coupling is stable down to {limit} times"),
         None => format!("at tau = {tau:.4} nothing is known"),
     };
     let reason = format!(
         "a free grain has {ratio:.3} times the density of the fluid: {known} with internal_fluid = \"{}\" \
-         (golden/stability/movers.csv); lighter ones are driven by the inertia of the fluid inside until the run \
-         breaks, and smaller time steps do not help",
+         (golden/stability/movers.csv); for lighter ones the inertia of the fluid inside makes it \
+         unstable, and smaller time steps do not help",
         word(inside)
     );
     vec![warning(reason, remedy(ratio, tau))]
 }
 
-/// The other way with the fluid inside, or another relaxation time, if either was right.
+/// The other treatment of the internal mass, or another relaxation time, if either was stable.
 fn remedy(ratio: f64, tau: f64) -> String {
     let both = [InternalFluid::Lagged, InternalFluid::Kept];
     let is_right = |inside, tau| limits::lightest(inside, tau).is_some_and(|limit| ratio >= limit);
     if let Some(inside) = both.into_iter().find(|&inside| is_right(inside, tau)) {
         return format!(
-            "use `coupling.internal_fluid = \"{}\"`, with which it was right",
+            "use `coupling.internal_fluid = \"{}\"`, with which it is stable",
             word(inside)
         );
     }
@@ -46,11 +46,13 @@ fn remedy(ratio: f64, tau: f64) -> String {
     });
     match found {
         Some((inside, tau)) => format!(
-            "use `time.tau` = {tau} with `coupling.internal_fluid = \"{}\"`, with which it was right",
+            "use `time.tau` = {tau} with `coupling.internal_fluid = \"{}\"`, with which it is stable",
             word(inside)
         ),
-        None => "use denser grains, or hold it fixed: psmrt has no scheme for grains as light"
-            .to_owned(),
+        None => {
+            "use denser grains, or fix the grain: psmrt has no stable scheme for grains as light"
+                .to_owned()
+        }
     }
 }
 

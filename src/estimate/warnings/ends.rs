@@ -50,15 +50,15 @@ fn ends(scene: &Scene, axis: usize) -> Option<Warning> {
     let size = if lost < 0.5 {
         format!("flow that is {:.0} % too fast", 100.0 * (1.0 / (1.0 - lost) - 1.0))
     } else {
-        "flow that is more than twice too fast".to_owned()
+        "flow that is more than twice as fast as it should be".to_owned()
     };
     let [low, high] = FACE_NAMES[axis];
     let reason = format!(
-        "the pressure faces {low} and {high} let no shear stress through, like the mouth of a jet: each makes the \
-         channel shorter by about {SHORTER} of its width, which here means a {size} for the pressures given"
+        "the pressure faces {low} and {high} transmit no shear stress, as at the mouth of a jet: each makes the \
+         channel effectively shorter by about {SHORTER} of its width, which here means a {size} for the pressures given"
     );
     let remedy = format!(
-        "say `developed = true` at both faces, which is exact where the flow does not change along the channel, or \
+        "write `developed = true` at both faces, which is exact where the flow does not change along the channel, or \
          make the ends periodic and drive the flow by [body_force] (pressure difference over density and \
          length), or make the channel at least {:.0} cells long",
         (mouths * SHORTER * width / SMALL).ceil()

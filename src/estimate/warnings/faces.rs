@@ -13,7 +13,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         && !has(|face| face.held_density().is_some())
     {
         return vec![warning(
-            "a velocity inlet with a free outflow leaves the mean density free",
+            "a velocity inlet with a free outflow does not determine the mean density",
             "use a `pressure` outlet, or watch the column density of a record `box`",
         )];
     }

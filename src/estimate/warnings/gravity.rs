@@ -1,4 +1,4 @@
-//! Warnings of forces that do not reach fluid and free grains alike, and of those that nothing holds up.
+//! Warnings of forces that do not act on fluid and free grains alike, and of those that nothing balances.
 
 use psmrt_reference::coupling::Gravity;
 use psmrt_reference::domain::Face;
@@ -13,7 +13,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     unequal(scene).into_iter().chain(endless_fall(scene)).collect()
 }
 
-/// Forces that do not reach fluid and free grains alike.
+/// Forces that do not act on fluid and free grains alike.
 fn unequal(scene: &Scene) -> Vec<Warning> {
     let Some(part) = &scene.free else { return Vec::new() };
     if let Some(Gravity::OnFluidToo { .. }) = part.settings.gravity {
@@ -23,8 +23,8 @@ fn unequal(scene: &Scene) -> Vec<Warning> {
     }
     let is_balanced = matches!(part.settings.gravity, Some(Gravity::Balanced { .. }));
     if scene.setup.body_force.is_some() && !is_balanced {
-        let reason = "a body force on the fluid does not push the grains as the pressure gradient that \
-                      it stands for would: they lack V grad p";
+        let reason = "a body force on the fluid does not act on the grains as the pressure gradient that \
+                      it stands for would: V grad p is missing";
         return vec![warning(
             reason,
             "drive the flow by pressure faces, or add the force to [gravity]",
@@ -61,11 +61,11 @@ fn endless_fall(scene: &Scene) -> Option<Warning> {
     })?;
     let name = ["x", "y", "z"][axis];
     let reason = format!(
-        "the domain is periodic along {name}, a net force acts along it, and no wall or fixed grain holds back \
-         what is inside: fluid and grains fall together faster and faster, there is no steady state"
+        "the domain is periodic along {name}, a net force acts along it, and no wall or fixed grain balances \
+         it: fluid and grains accelerate together, there is no steady state"
     );
     let remedy = if gravity.is_some() {
-        "let a pressure gradient carry the weight (`balance = true` in [gravity]), or close the domain \
+        "let a pressure gradient balance the weight (`balance = true` in [gravity]), or close the domain \
          (`kind = \"wall\"`) or fix grains"
     } else {
         "add walls or fixed grains, or remove [body_force]"

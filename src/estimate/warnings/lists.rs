@@ -1,4 +1,4 @@
-//! Warnings of what lists of grains say and nobody uses.
+//! Warnings of columns of grain lists that are not used.
 
 use super::warning;
 use crate::estimate::Warning;
@@ -9,7 +9,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let of_list = |number: usize| {
         warning(
             format!(
-                "the densities in the list of grains[{number}].file mean nothing: its grains are not free"
+                "the densities in the list of grains[{number}].file are not used: its grains are not free"
             ),
             "add `motion = \"free\"` to them if they are to move, or remove the column",
         )

@@ -16,8 +16,8 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     }
     if let Some((grain, face, step)) = leavings(scene).into_iter().min_by_key(|left| left.2) {
         let reason = format!(
-            "prescribed grain {grain} begins to leave through the open face {face} after step {step} ({:.4e} s): its \
-             load is then that on the part inside",
+            "prescribed grain {grain} begins to leave through the open face {face} after step {step} ({:.4e} s): the \
+             force on it is then that on the part inside",
             step as f64 * scene.units.si_dt
         );
         warnings.push(warning(reason, "stop before, or lengthen the domain, if that is not meant"));

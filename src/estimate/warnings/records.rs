@@ -1,10 +1,10 @@
-//! Warnings of runs that leave nothing behind, or rows at other times than those asked for.
+//! Warnings of runs that record nothing, or rows at other times than those asked for.
 
 use super::warning;
 use crate::estimate::Warning;
 use crate::scene::{Rhythm, Scene};
 
-/// Rows further apart or closer than asked for by this share are told.
+/// Rows further apart or closer than asked for by this share cause a warning.
 const OFF: f64 = 0.01;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {

@@ -1,4 +1,4 @@
-//! Warnings of scenes beyond what the maps of stability (`golden/stability`) found to survive or to be right.
+//! Warnings of scenes beyond what the stability maps (`golden/stability`) found to be stable or accurate.
 
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
@@ -11,10 +11,10 @@ use crate::scene::Scene;
 use crate::stability::Model;
 use crate::stability::limits::Measured;
 
-/// The flow of the maps that a scene is held to, in words too, and how fast it is: cells per step, and where
+/// The flow of the maps that a scene is compared with, in words too, and how fast it is: cells per step, and where
 /// that comes from. `None` if no velocity is known.
 pub(crate) fn mapped(scene: &Scene) -> Option<(Measured, &'static str, f64, String)> {
-    // Grains that fill more than a part of the box make a bed: what flows between them is several times as
+    // Grains that fill more than a part of the domain make a bed: what flows between them is several times as
     // fast as the superficial velocity, and the ordered bed says more than the shear layer.
     let fraction = match bed(scene).filter(|_| scene.free.is_none()) {
         Some(bed) => bed.fraction,
@@ -40,8 +40,10 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let (collision, tau) = (&scene.setup.collision, scene.setup.collision.tau());
     let Some(limit) = measured.limit(collision) else { return Vec::new() };
     let word = match limit.right.filter(|&right| speed > right && speed <= limit.lives) {
-        _ if speed > limit.lives => format!("survived only up to {}", limit.lives),
-        Some(right) => format!("was right only up to {right} (and survived up to {})", limit.lives),
+        _ if speed > limit.lives => format!("was stable only up to {}", limit.lives),
+        Some(right) => {
+            format!("was accurate only up to {right} (and stable up to {})", limit.lives)
+        }
         None => return Vec::new(),
     };
     let reason = format!(
@@ -51,7 +53,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let other = measured.limit_of(Model::DHumieres, tau).filter(|other| other.lives > limit.lives);
     let remedy = match other {
         Some(other) => format!(
-            "use MRT with d'Humieres' rates (survived up to {}), a finer grid, or a smaller velocity",
+            "use MRT with d'Humieres' rates (stable up to {}), a finer grid, or a smaller velocity",
             other.lives
         ),
         None => "use a finer grid, or a shorter time step with tau further from 1/2 (a higher viscosity), or \

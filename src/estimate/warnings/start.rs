@@ -1,5 +1,5 @@
-//! Warnings of a start whose sound does not die away: a velocity inlet sets fluid in motion that moves
-//! otherwise, and the wave runs to and fro between it and a pressure face.
+//! Warnings of a start whose sound does not decay: a velocity inlet accelerates fluid that starts with another
+//! velocity, and the wave travels back and forth between it and a pressure face.
 
 use std::f64::consts::PI;
 
@@ -41,8 +41,8 @@ fn start(scene: &Scene, axis: usize, side: usize, velocity: &Vec3) -> Option<War
     }
     let si_velocity = velocity.map(|u| u * scene.units.si_velocity());
     let reason = format!(
-        "the inlet at face {} sets fluid in motion that does not start with its velocity: the sound of that start \
-         runs to and fro between the inlet and the pressure face; the velocity swings by up to {:.0} % of \
+        "the inlet at face {} accelerates fluid that does not start with its velocity: the sound of that start \
+         travels back and forth between the inlet and the pressure face; the velocity oscillates by up to {:.0} % of \
          the inlet's to either side, the density by {:.1} %, and {:.0} % of that is left when the run ends",
         FACE_NAMES[axis][side],
         100.0 * missed / velocity[axis].abs(),

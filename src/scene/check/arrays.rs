@@ -92,5 +92,5 @@ fn unit_cells(
         return Ok(counts);
     }
     let problem = format!("the unit cells are {edges:?} cells in size; they must be cubes");
-    Err(Trouble::new(key, problem, "change `counts` or the box"))
+    Err(Trouble::new(key, problem, "change `counts` or the domain"))
 }

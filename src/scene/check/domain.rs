@@ -15,11 +15,11 @@ pub(super) fn cells(section: &DomainSection) -> Result<[usize; 3], Trouble> {
         (Some(size), None) => whole_cells(*size, section.dx)?,
         (None, Some(cells)) => given_cells(*cells)?,
         (Some(_), Some(_)) => {
-            let problem = "the box has both `size` and `cells`";
+            let problem = "the domain has both `size` and `cells`";
             return Err(Trouble::new("domain.cells", problem, "give one of them, with `dx`"));
         }
         (None, None) => {
-            let problem = "the box has neither `size` (m) nor `cells`";
+            let problem = "the domain has neither `size` (m) nor `cells`";
             return Err(Trouble::new("domain", problem, "add `size = [x, y, z]` in m"));
         }
     };
@@ -78,7 +78,7 @@ pub const BYTES_PER_CELL: u64 = 2 * 19 * 8 + 4;
 
 /// Errors if the box cannot be numbered or cannot fit into this machine's memory.
 fn check_memory(cells: [usize; 3], key: &str) -> Result<(), Trouble> {
-    let remedy = "use a larger `dx` or a smaller box; mirror planes (`free_slip`) halve it";
+    let remedy = "use a larger `dx` or a smaller domain; mirror planes (`free_slip`) halve it";
     let count = cells.iter().try_fold(1_usize, |product, &n| product.checked_mul(n));
     let Some(count) = count.filter(|&count| count < u32::MAX as usize) else {
         let problem =

@@ -155,7 +155,7 @@ fn radii(
     if let Amount::Count(count) = amount
         && count as f64 * sphere_volume(0.5 * si_diameters[0]) > DENSEST * si_volume
     {
-        let problem = "so many grains do not fit into the box";
+        let problem = "so many grains do not fit into the domain";
         return Err(Trouble::new(at("count"), problem, "take fewer or smaller grains"));
     }
     Sizes { diameters: si_diameters, seed }.radii(amount).ok_or_else(|| {
@@ -167,7 +167,7 @@ fn radii(
 
 fn balls(packing: Result<Packing, PackingError>, place: &Place) -> Result<Vec<Ball>, Trouble> {
     let packing = packing.map_err(|error| {
-        let remedy = "change number, size, seed or box; `psmrt pack` makes dense packings";
+        let remedy = "change number, size, seed or domain; `psmrt pack` makes dense packings";
         Trouble::new((place.at)("kind"), error.to_string(), remedy)
     })?;
     let ball = |grain: &Grain| Ball {

@@ -26,34 +26,34 @@ pub(super) fn inside(
         let (si_at, si_length) = (centre[axis] * units.si_dx, length * units.si_dx);
         if !(0.0..=length).contains(&centre[axis]) {
             let problem = format!(
-                "a grain's centre lies at {} = {si_at:.6e} m, outside the box (0 to {si_length:.6e} m)",
+                "a grain's centre lies at {} = {si_at:.6e} m, outside the domain (0 to {si_length:.6e} m)",
                 AXES[axis]
             );
-            return Err(Trouble::new(key, problem, "move it into the box"));
+            return Err(Trouble::new(key, problem, "move it into the domain"));
         }
         let stick_out = [radius - centre[axis], centre[axis] + radius - length];
         for (face, out) in domain.faces().axis(axis).into_iter().zip(stick_out) {
             let holds = matches!(face, Face::Periodic | Face::FreeSlip);
             if !(holds || out <= 2.0 * radius * MAX_OVERLAP) {
                 let problem = format!(
-                    "a grain at {} = {si_at:.6e} m sticks {:.3e} m out of the box (0 to \
+                    "a grain at {} = {si_at:.6e} m extends {:.3e} m beyond the domain (0 to \
                      {si_length:.6e} m)",
                     AXES[axis],
                     out * units.si_dx
                 );
-                let remedy = "move it, or make that face periodic or a mirror (`free_slip`)";
+                let remedy = "move it, or make that face periodic or a mirror plane (`free_slip`)";
                 return Err(Trouble::new(key, problem, remedy));
             }
         }
         let fits = 2.0 * radius <= length * (1.0 + MAX_OVERLAP);
         if domain.is_periodic(axis) && !fits {
             let problem = format!(
-                "a grain of diameter {:.4e} m is larger than the periodic box along {} ({si_length:.4e} \
+                "a grain of diameter {:.4e} m is larger than the periodic domain along {} ({si_length:.4e} \
                  m): it overlaps its own image",
                 2.0 * radius * units.si_dx,
                 AXES[axis]
             );
-            return Err(Trouble::new(key, problem, "use a larger box or a smaller grain"));
+            return Err(Trouble::new(key, problem, "use a larger domain or a smaller grain"));
         }
     }
     Ok(())

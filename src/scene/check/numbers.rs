@@ -63,15 +63,11 @@ pub(super) fn count(key: &str, value: i64) -> Result<u64, Trouble> {
     })
 }
 
-/// Errors if a key is given where it means nothing.
+/// Errors if a key is given where it does not apply.
 pub(super) fn absent<T>(key: &str, value: Option<&T>, belongs: &str) -> Result<(), Trouble> {
     match value {
         None => Ok(()),
-        Some(_) => Err(Trouble::new(
-            key,
-            format!("it belongs to {belongs} and means nothing here"),
-            "remove it",
-        )),
+        Some(_) => Err(Trouble::new(key, format!("it applies to {belongs} only"), "remove it")),
     }
 }
 

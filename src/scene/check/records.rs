@@ -264,11 +264,11 @@ fn place_of(
         let n = domain.cells()[axis];
         if !(0.0..=n as f64).contains(&along) {
             let problem = format!(
-                "it lies outside the box, which spans 0 to {:.6e} m along {}",
+                "it lies outside the domain, which spans 0 to {:.6e} m along {}",
                 n as f64 * units.si_dx,
                 ["x", "y", "z"][axis]
             );
-            return Err(Trouble::new(key, problem, "give a point inside the box"));
+            return Err(Trouble::new(key, problem, "give a point inside the domain"));
         }
         place[axis] = along;
     }
