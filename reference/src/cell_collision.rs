@@ -1,4 +1,6 @@
 //! The collision of one cell, fluid and solid part together: Eqs. 2, 3, 4 and 6, corrected.
+//!
+//! The relaxation time in the weight `B(epsilon, tau)` is that of the stress, under MRT too.
 
 use crate::collision::CollisionOperator;
 use crate::coverage::{Coverage, Share};

@@ -1,4 +1,7 @@
 //! plotters' SVG backend, addressed in fractions of a pixel.
+//!
+//! plotters is only the canvas: without system fonts its chart builder guesses the sizes of text coarsely, so that layout,
+//! ticks and legend are our own.
 
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;

@@ -1,4 +1,7 @@
 //! The diagnosis: which single mistake of the catalogue reproduces the candidate's wrong numbers.
+//!
+//! A mistake that makes a long scene unstable cannot be compared there: such a scene is disturbed by one epsilon, and what
+//! that grows to is taken for round-off.
 
 use psmrt_reference::lattice::Populations;
 

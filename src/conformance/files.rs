@@ -1,4 +1,7 @@
 //! The kit as files: written, and compared with a kit that is there.
+//!
+//! A folder of NPY files and no archive: a reader takes thirty lines in any language, and equal bytes need no care for
+//! times of files and compression.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -4,6 +4,8 @@
 //! Errors of a candidate are therefore measured in its machine epsilon times the gauge, as the testers
 //! of reference LAPACK do. Products and quotients carry the excess of their parts over their size to
 //! first order.
+//!
+//! Gauges of whole scenes are those of one step, times the square root of the number of steps.
 
 use std::iter::Sum;
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -2,6 +2,8 @@
 //!
 //! The lock is the operating system's on the file `run.lock`, so that a process that is killed frees it.
 //! What stands in the file is for whoever finds it held.
+//!
+//! The file also identifies the folder: if it has been moved or removed, that is noticed, and it is never made again.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};

@@ -1,4 +1,6 @@
 //! NumPy arrays, format version 1.0, double precision, little-endian, C order.
+//!
+//! Own short code, checked with NumPy itself: the crates for it bring a parser generator.
 
 use std::io::{self, Write};
 

@@ -2,6 +2,9 @@
 //!
 //! Arrays are appended raw, little-endian, as "VTK File Formats" (Kitware) describes it, and are
 //! written as they come, so that a field is never in memory twice.
+//!
+//! Own short code, checked with VTK itself (the tests of scene outputs): the crate vtkio is a release candidate and holds whole arrays
+//! in memory.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,8 @@
 //! How free grains touch: from the `[contact]` section to laws in lattice units.
+//!
+//! Faces of the domain hold free grains: a wall is a plane with friction. A mirror plane is the contact with the grain's own
+//! mirror image, which is twice as stiff and without friction; grains centred on it are halved only if all of them
+//! are. Inlets and outlets act as sieves, so that no grain leaves the domain.
 
 use psmrt_reference::grains::law::{ContactLaw, Friction, LawError, Rolling};
 use psmrt_reference::grains::motion::Substeps;

@@ -1,4 +1,6 @@
 //! Grains that are put down by a rule with a seed: random suspensions and settled beds.
+//!
+//! They are made anew when a run is resumed: the same seed gives the same bits.
 
 use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::{Grain, sphere_volume};

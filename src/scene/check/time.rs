@@ -80,7 +80,7 @@ fn step_of_tau(tau: f64, si_dx: f64, si_nu: f64) -> Result<f64, Trouble> {
         return Err(Trouble::new(
             "time.tau",
             problem,
-            "0.55 to 0.8 cost least for what they are worth; try 0.6",
+            "0.55 to 0.8 give the best accuracy for their cost; try 0.6",
         ));
     }
     // ν = (τ - 1/2)/3 dx²/dt
