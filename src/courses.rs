@@ -238,8 +238,8 @@ impl Lookout {
     }
 }
 
-/// How far pairs are listed: as far as the box leaves room for. `None` if no two spheres move against each
-/// other, or one fills the box.
+/// How far pairs are listed: as far as the domain leaves room for. `None` if no two spheres move against each
+/// other, or one fills the domain.
 fn reach(grains: &[Grain], sides: &PeriodicBox) -> Option<f64> {
     let first = grains.first()?;
     if grains.iter().all(|grain| grain.velocity == first.velocity) {

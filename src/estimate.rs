@@ -7,7 +7,7 @@
 //! | `disk.rs` | how much it will write |
 //! | `models.rs` | which models are on, each with the reason |
 //! | `grains.rs` | both for free grains, and what their warnings rest on |
-//! | `spheres.rs` | the spheres of a scene, and how much of each the box holds |
+//! | `spheres.rs` | the spheres of a scene, and how much of each the domain holds |
 //! | `bed.rs` | where they lie densest |
 //! | `speed.rs` | how long it takes, measured on its first steps |
 //! | `warnings.rs`, `warnings/` | what looks risky, one topic a file |

@@ -12,17 +12,13 @@
 mod arrays;
 
 use arrays::{Array, Lattice, Part};
-use psmrt_reference::collision::Collision;
+use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
-use psmrt_reference::rates::{RateError, Rates};
 use std::io::{self, Write};
 
-/// Name and collision of a relaxation time.
-type Rule = (&'static str, fn(f64) -> Result<Collision, RateError>);
-
-const SRT: Rule = ("SRT", |tau| Ok(Collision::Srt { tau }));
-const MRT: Rule = ("MRT_dHumieres", |tau| Ok(Collision::Mrt { rates: Rates::dhumieres(tau)? }));
-const TRT: Rule = ("TRT_3/16", |tau| Ok(Collision::Mrt { rates: Rates::magic(tau, 3.0 / 16.0)? }));
+const SRT: Preset = Preset::Srt;
+const MRT: Preset = Preset::DHumieres;
+const TRT: Preset = Preset::Trt;
 
 const NT: (&str, Weighting) = ("NT", Weighting::NobleTorczynski);
 const EPS: (&str, Weighting) = ("eps", Weighting::SolidFraction);
@@ -34,17 +30,18 @@ const SLOW: f64 = 0.005;
 
 /// The models that one set of grids and relaxation times is run with.
 struct Models {
-    rules: &'static [Rule],
+    presets: &'static [Preset],
     weights: &'static [(&'static str, Weighting)],
     operators: &'static [(&'static str, SolidOperator)],
 }
 
-const ALL: Models = Models { rules: &[SRT, MRT, TRT], weights: &[NT, EPS], operators: &[BB, SUP] };
+const ALL: Models =
+    Models { presets: &[SRT, MRT, TRT], weights: &[NT, EPS], operators: &[BB, SUP] };
 const BOTH_WEIGHTS: Models =
-    Models { rules: &[SRT, MRT, TRT], weights: &[NT, EPS], operators: &[BB] };
-const RULES: Models = Models { rules: &[SRT, MRT, TRT], weights: &[NT], operators: &[BB] };
-const ONE: Models = Models { rules: &[MRT], weights: &[NT], operators: &[BB] };
-const ONE_EPS: Models = Models { rules: &[MRT], weights: &[EPS], operators: &[BB] };
+    Models { presets: &[SRT, MRT, TRT], weights: &[NT, EPS], operators: &[BB] };
+const PRESETS: Models = Models { presets: &[SRT, MRT, TRT], weights: &[NT], operators: &[BB] };
+const ONE: Models = Models { presets: &[MRT], weights: &[NT], operators: &[BB] };
+const ONE_EPS: Models = Models { presets: &[MRT], weights: &[EPS], operators: &[BB] };
 
 /// A row of the literature: lattice, solid fraction, exact `K`.
 #[derive(Clone, Copy)]
@@ -68,11 +65,11 @@ fn main() -> io::Result<()> {
     grid(sc, &[12], &[0.55, 0.6, 0.8, 1.0, 1.5, 2.0], &ALL)?;
     grid(sc, &[16], &[0.6, 0.8, 1.0, 1.5, 2.0], &ALL)?;
     // Denser arrays, and the other lattices.
-    grid(sc_dense, &[8, 12, 16], &[0.6, 0.8, 1.0, 1.5], &RULES)?;
-    grid(bcc, &[12, 16], &[0.6, 0.8, 1.0, 1.5], &RULES)?;
-    grid(bcc_dense, &[8, 12, 16, 20], &[0.6, 0.8, 1.0, 1.5], &RULES)?;
-    grid(fcc, &[12, 16], &[0.6, 0.8, 1.0, 1.5], &RULES)?;
-    grid(fcc_dense, &[12, 16, 20, 24], &[0.6, 0.8, 1.0, 1.5], &RULES)?;
+    grid(sc_dense, &[8, 12, 16], &[0.6, 0.8, 1.0, 1.5], &PRESETS)?;
+    grid(bcc, &[12, 16], &[0.6, 0.8, 1.0, 1.5], &PRESETS)?;
+    grid(bcc_dense, &[8, 12, 16, 20], &[0.6, 0.8, 1.0, 1.5], &PRESETS)?;
+    grid(fcc, &[12, 16], &[0.6, 0.8, 1.0, 1.5], &PRESETS)?;
+    grid(fcc_dense, &[12, 16, 20, 24], &[0.6, 0.8, 1.0, 1.5], &PRESETS)?;
     // Where between the nodes the sphere lies.
     for side in [8, 12, 16] {
         for shift in [[0.0; 3], [0.5; 3], [0.25; 3], [0.5, 0.0, 0.0], [0.3, 0.1, 0.4]] {
@@ -124,10 +121,10 @@ fn header() {
 fn grid(exact: Exact, sides: &[usize], taus: &[f64], models: &Models) -> io::Result<()> {
     for &side in sides {
         for &tau in taus {
-            for &rule in models.rules {
+            for &preset in models.presets {
                 for &weight in models.weights {
                     for &operator in models.operators {
-                        row(exact, side, Part::Quarter, SLOW, (tau, rule), weight, operator)?;
+                        row(exact, side, Part::Quarter, SLOW, (tau, preset), weight, operator)?;
                     }
                 }
             }
@@ -142,12 +139,12 @@ fn row(
     side: usize,
     part: Part,
     reynolds: f64,
-    (tau, (rule, collision)): (f64, Rule),
+    (tau, preset): (f64, Preset),
     (weight, weighting): (&str, Weighting),
     (operator_name, operator): (&str, SolidOperator),
 ) -> io::Result<()> {
     let Exact { lattice, solid_fraction, k: k_exact } = exact;
-    let collision = collision(tau).map_err(io::Error::other)?;
+    let collision = preset.collision(tau).map_err(io::Error::other)?;
     let array =
         Array { lattice, solid_fraction, side, part, collision, weighting, operator, reynolds };
     let shift = match part {
@@ -157,7 +154,8 @@ fn row(
     let diameter = 2.0 * array.radius();
     let name = lattice.name();
     print!(
-        "{name},{solid_fraction},{side},{diameter:.4},{tau},{rule},{weight},{operator_name},{shift},"
+        "{name},{solid_fraction},{side},{diameter:.4},{tau},{},{weight},{operator_name},{shift},",
+        preset.word()
     );
     match array.flow(k_exact, 1e-6, |solver, steps| solver.run(steps)) {
         Ok(flow) => println!(

@@ -4,12 +4,11 @@
 //! cargo run --release -p psmrt-reference --example leakage > golden/leakage/expected.csv
 //! ```
 
-use psmrt_reference::collision::Collision;
+use psmrt_reference::collision::{Collision, Preset};
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::guard::Stopped;
 use psmrt_reference::lattice::{Vec3, viscosity};
 use psmrt_reference::partial_saturation::SolidOperator;
-use psmrt_reference::rates::{RateError, Rates};
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 use psmrt_reference::solver::Solver;
@@ -42,7 +41,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("# Theory and proof: tests/oracle/leakage.rs.");
     println!("tau,collision,operator,normal,permeability,along_1,along_2,along_4");
     for tau in [0.51, 0.55, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0] {
-        for (name, collision) in collisions(tau)? {
+        for preset in Preset::ALL {
+            let (name, collision) = (preset.word(), preset.collision(tau)?);
             for operator in [SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition]
             {
                 let across = fluxes(collision, operator, 2)?;
@@ -63,15 +63,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
-}
-
-/// Each collision with its name.
-fn collisions(tau: f64) -> Result<[(&'static str, Collision); 3], RateError> {
-    Ok([
-        ("SRT", Collision::Srt { tau }),
-        ("MRT_dHumieres", Collision::Mrt { rates: Rates::dhumieres(tau)? }),
-        ("TRT_3/16", Collision::Mrt { rates: Rates::magic(tau, 3.0 / 16.0)? }),
-    ])
 }
 
 /// Steady mass flux of each layer under a force along `axis` (the slab lies across z), over the force

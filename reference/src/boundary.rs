@@ -1,4 +1,4 @@
-//! The faces of the box: which population enters a cell along a direction that comes from outside.
+//! The faces of the domain: which population enters a cell along a direction that comes from outside.
 //!
 //! All rules act on single links, from post-collision populations `f*`, and put the boundary
 //! half-way between the outermost node and its neighbour outside. With `a` the direction that enters
@@ -20,14 +20,14 @@
 //! cell, at an edge too, lets in exactly `rho u_n` and a moving wall creates no mass. Failing that, a
 //! link that crosses a face of given pressure obeys it, and then one that crosses a developed or non-reflecting one,
 //! or two of them, at the mean of their densities. Else each crossed face in turn wraps, mirrors or clamps the place that the link comes from. Bounce-back acts on the node itself, so a mirror
-//! plane that meets a wall or an inlet gives exactly the flow of the whole, unmirrored box.
+//! plane that meets a wall or an inlet gives exactly the flow of the whole, unmirrored domain.
 
 use crate::directions::{C, OPPOSITE, number_of};
 use crate::domain::{Domain, Face};
 use crate::lattice::{CS2, Populations, Vec3, W, c, density, momentum};
 use crate::non_reflecting::SlowMeans;
 
-/// The population that enters cell `x` along direction `a` when `x - c_a` lies outside the box.
+/// The population that enters cell `x` along direction `a` when `x - c_a` lies outside the domain.
 pub fn entering(
     domain: &Domain,
     slow_means: &SlowMeans,
@@ -109,7 +109,7 @@ pub fn anti_bounce_back(post: &Populations, a: usize, rho_w: f64) -> f64 {
 
 /// What a cell would send in from outside a face of density `rho_w` half a cell away if the flow did not change
 /// along the normal: its own populations at the density that is as far beyond the face's as its own is
-/// on this side of it. `post` is the outermost cell that the link would come from, clamped into the box.
+/// on this side of it. `post` is the outermost cell that the link would come from, clamped into the domain.
 ///
 /// Velocity and stress are those of that cell, so that Poiseuille flow passes as it is
 /// (`tests/oracle/boundaries.rs`).

@@ -43,6 +43,78 @@ impl Collision {
     }
 }
 
+/// The collisions that are studied and planned with: one spelling of each, in all tables and commands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Preset {
+    /// Single relaxation time (BGK).
+    Srt,
+    /// MRT with the rates of d'Humières et al. (2002), [`Rates::dhumieres`].
+    DHumieres,
+    /// MRT with two relaxation times (TRT), [`Rates::magic`] with [`Preset::MAGIC`].
+    Trt,
+}
+
+impl Preset {
+    /// All of them, from the plainest to the most special.
+    pub const ALL: [Preset; 3] = [Preset::Srt, Preset::DHumieres, Preset::Trt];
+
+    /// The magic parameter Λ of [`Preset::Trt`]: plane walls lie exactly half-way between nodes.
+    pub const MAGIC: f64 = 3.0 / 16.0;
+
+    /// As tables spell it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Preset::Srt => "SRT",
+            Preset::DHumieres => "MRT_dHumieres",
+            Preset::Trt => "TRT_3/16",
+        }
+    }
+
+    /// The preset of a word of a table, if it is one.
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.word() == word)
+    }
+
+    /// For readers.
+    pub fn title(self) -> &'static str {
+        match self {
+            Preset::Srt => "SRT",
+            Preset::DHumieres => "MRT d'Humieres",
+            Preset::Trt => "TRT 3/16",
+        }
+    }
+
+    /// The rates at relaxation time `tau`. Errors if `tau <= 1/2`.
+    pub fn rates(self, tau: f64) -> Result<Rates, RateError> {
+        match self {
+            Preset::Srt => Rates::srt(tau),
+            Preset::DHumieres => Rates::dhumieres(tau),
+            Preset::Trt => Rates::magic(tau, Self::MAGIC),
+        }
+    }
+
+    /// The collision at relaxation time `tau`. Errors if `tau <= 1/2`.
+    pub fn collision(self, tau: f64) -> Result<Collision, RateError> {
+        let rates = self.rates(tau)?;
+        Ok(match self {
+            Preset::Srt => Collision::Srt { tau },
+            Preset::DHumieres | Preset::Trt => Collision::Mrt { rates },
+        })
+    }
+
+    /// The preset that a collision is, whichever way its rates were set; `None` if it is none of them.
+    pub fn of(collision: &Collision) -> Option<Self> {
+        let Collision::Mrt { rates } = collision else { return Some(Preset::Srt) };
+        // But for the rounding of rates that were given as numbers.
+        let same = |other: &Rates| {
+            let mut pairs = other.diagonal().into_iter().zip(rates.diagonal());
+            pairs.all(|(a, b)| (a - b).abs() < 1e-9)
+        };
+        let by_likelihood = [Preset::DHumieres, Preset::Trt, Preset::Srt];
+        by_likelihood.into_iter().find(|preset| preset.rates(rates.tau()).is_ok_and(|r| same(&r)))
+    }
+}
+
 /// A collision ready for use: for MRT with its matrices built.
 #[derive(Clone, Debug)]
 pub enum CollisionOperator {

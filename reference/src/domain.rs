@@ -1,6 +1,6 @@
-//! The box of cells and its six faces: vocabulary that every engine shares.
+//! The domain, a domain of cells, and its six faces: vocabulary that every engine shares.
 //!
-//! A box of `n` cells along an axis spans `0..n` in lattice units; cell `i` has its centre, where
+//! A domain of `n` cells along an axis spans `0..n` in lattice units; cell `i` has its centre, where
 //! its node lies, at `i + 1/2`. Faces lie half a cell outside the outermost nodes. Cells are
 //! numbered with x fastest: `index = x + nx (y + ny z)`.
 
@@ -8,7 +8,7 @@ use crate::lattice::Vec3;
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// What happens at one face of the box. Velocities and densities in lattice units.
+/// What happens at one face of the domain. Velocities and densities in lattice units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Face {
     /// What leaves here enters at the opposite face.
@@ -88,7 +88,7 @@ impl Faces {
 /// Names of the faces, `FACE_NAMES[axis][side]`, as scenes spell them.
 pub const FACE_NAMES: [[&str; 2]; 3] = [["-x", "+x"], ["-y", "+y"], ["-z", "+z"]];
 
-/// A box or a combination of faces that makes no sense.
+/// A domain or a combination of faces that makes no sense.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum DomainError {
     /// No cells along an axis.
@@ -156,7 +156,7 @@ pub enum DomainError {
     },
 }
 
-/// The box: its cells and what happens at its faces.
+/// The domain: its cells and what happens at its faces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Domain {
     cells: [usize; 3],
@@ -164,7 +164,7 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// A box of `cells` along x, y, z. Errors if it is empty, too large, or its faces contradict
+    /// A domain of `cells` along x, y, z. Errors if it is empty, too large, or its faces contradict
     /// each other.
     pub fn new(cells: [usize; 3], faces: Faces) -> Result<Self, DomainError> {
         if cells.contains(&0) {
@@ -214,7 +214,7 @@ impl Domain {
         self.faces.axis(axis)[0] == Face::Periodic
     }
 
-    /// Those of `cells` along an axis that the box has: all of them where it is periodic.
+    /// Those of `cells` along an axis that the domain has: all of them where it is periodic.
     pub fn within(&self, axis: usize, cells: RangeInclusive<i64>) -> RangeInclusive<i64> {
         let n = i64::try_from(self.cells[axis]).unwrap_or(i64::MAX);
         if self.is_periodic(axis) {
@@ -224,7 +224,7 @@ impl Domain {
         }
     }
 
-    /// The cell at unbounded coordinates: wrapped along periodic axes, `None` outside the box.
+    /// The cell at unbounded coordinates: wrapped along periodic axes, `None` outside the domain.
     pub fn locate(&self, unbounded: [i64; 3]) -> Option<[usize; 3]> {
         let mut inside = [0; 3];
         for axis in 0..3 {

@@ -60,7 +60,7 @@ impl SlowMeans {
         SlowMeans { means }
     }
 
-    /// The means, face by face in the order -x, +x, -y, ..., each with the cells in the order of the box.
+    /// The means, face by face in the order -x, +x, -y, ..., each with the cells in the order of the domain.
     pub fn values(&self) -> &[f64] {
         &self.means
     }
@@ -121,7 +121,7 @@ fn face_cells(domain: &Domain, face: Side) -> impl Iterator<Item = (Side, [usize
     })
 }
 
-/// Velocity out of the box through a face.
+/// Velocity out of the domain through a face.
 fn outward((axis, side): Side, f: &Populations) -> f64 {
     let sign = if side == 0 { -1.0 } else { 1.0 };
     sign * momentum(f)[axis] / density(f)

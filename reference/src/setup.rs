@@ -26,7 +26,7 @@ pub struct SolidPhase {
 /// Everything a solver needs, in lattice units. What is `None` costs nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
-    /// The box and its faces.
+    /// The domain and its faces.
     pub domain: Domain,
     /// The fluid's collision.
     pub collision: Collision,
@@ -41,7 +41,7 @@ pub struct Setup {
 /// A set-up that cannot be run.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum SetupError {
-    /// The box or its faces.
+    /// The domain or its faces.
     #[error(transparent)]
     Domain(#[from] DomainError),
     /// The collision's rates.

@@ -24,7 +24,7 @@ pub enum Shape {
 pub struct Solid {
     /// Its shape.
     pub shape: Shape,
-    /// Its centre: centre of a sphere, and the point about which it spins and torques are taken.
+    /// Its centre: centre of a sphere, and the point about which it rotates and torques are taken.
     pub centre: Vec3,
     /// Velocity of the centre.
     pub velocity: Vec3,
@@ -47,26 +47,26 @@ pub enum SolidError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// A cell index outside the box.
+    /// A cell index outside the domain.
     #[error("solid {solid} names cell {cell}, but the domain has {count} cells (0 to {count} - 1)")]
     NoSuchCell {
         /// Number of the solid.
         solid: usize,
         /// The cell as given.
         cell: usize,
-        /// Number of cells in the box.
+        /// Number of cells in the domain.
         count: usize,
     },
 }
 
 impl Solid {
-    /// A sphere held still.
+    /// A fixed sphere.
     pub fn fixed_sphere(centre: Vec3, radius: f64) -> Self {
         let still = Vec3::zeros();
         Solid { shape: Shape::Sphere { radius }, centre, velocity: still, spin: still }
     }
 
-    /// Given solid fractions, held still.
+    /// Given solid fractions, fixed.
     pub fn fixed_cells(fractions: Vec<(usize, f64)>) -> Self {
         let still = Vec3::zeros();
         Solid { shape: Shape::Cells { fractions }, centre: still, velocity: still, spin: still }
@@ -88,7 +88,7 @@ impl Solid {
         matches!(self.shape, Shape::Sphere { .. }) && self.velocity != Vec3::zeros()
     }
 
-    /// Errors unless the numbers of solid number `solid` can be used in a box of `cell_count` cells.
+    /// Errors unless the numbers of solid number `solid` can be used in a domain of `cell_count` cells.
     pub fn check(&self, solid: usize, cell_count: usize) -> Result<(), SolidError> {
         let bad = |key, value, allowed| Err(SolidError::BadValue { solid, key, value, allowed });
         let finite = "it must be finite";

@@ -34,7 +34,7 @@ pub struct Memory {
     pub slow_means: Vec<f64>,
 }
 
-/// The oracle: the fluid of one box, and the solids that move through it as prescribed.
+/// The oracle: the fluid of one domain, and the solids that move through it as prescribed.
 #[derive(Clone, Debug)]
 pub struct Solver {
     setup: Setup,
@@ -212,7 +212,7 @@ impl Solver {
     }
 
     /// Mean density at the guard's last look over that at its first. A velocity inlet with a free
-    /// outflow leaves it free, all other boxes hold it.
+    /// outflow leaves it free, all other domains hold it.
     pub fn density_drift(&self) -> f64 {
         self.guard.density_drift()
     }
@@ -222,7 +222,7 @@ impl Solver {
         &self.setup
     }
 
-    /// The box.
+    /// The domain.
     pub fn domain(&self) -> &Domain {
         &self.setup.domain
     }
@@ -243,7 +243,7 @@ impl Solver {
     }
 
     /// `Σ B_s` over the cells of each solid, where it is now: the volume in which the body force does not
-    /// act on the fluid. With it the forces of a step close the balance of momentum: in a periodic box
+    /// act on the fluid. With it the forces of a step close the balance of momentum: in a periodic domain
     /// `ΔΣj = V G - Σ_s (F_s + G Σ B_s)`, the sums being those of the step.
     pub fn displaced(&self) -> Vec<f64> {
         let mut displaced = vec![0.0; self.loads.len()];
@@ -282,7 +282,7 @@ impl Solver {
     }
 
     /// Mass flux of each cell: the mean of its momentum before and after the next collision, solid
-    /// cells included. Its mean over the box, divided by the density, is the superficial velocity.
+    /// cells included. Its mean over the domain, divided by the density, is the superficial velocity.
     pub fn mass_flux_field(&self) -> Vec<Vec3> {
         let cell_collision =
             CellCollision::new(&self.setup, &self.operator, self.coverage.as_ref());

@@ -1,6 +1,6 @@
 //! How the fluid starts: in equilibrium, and where solids are, with the solids.
 //!
-//! The fluid in the cells that a solid covers is dragged along by the PS term. Were it to start with
+//! The fluid in the cells that a solid covers is made to follow the solid by the PS term. Were it to start with
 //! the fluid's motion, a free grain would have to set `m_f = rho_f V` in motion out of its own momentum,
 //! and would lose `rho_f/rho_s` of it within a few steps. So a cell starts with the mean velocity of what
 //! fills it, by volume: the momentum in the covered part of all cells is then `m_f v`, and that of fluid

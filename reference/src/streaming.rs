@@ -41,7 +41,7 @@ pub fn stream(
     });
 }
 
-/// Whether direction `a` enters cell `x` from outside a box of `n` cells.
+/// Whether direction `a` enters cell `x` from outside a domain of `n` cells.
 fn crosses(x: [usize; 3], n: [usize; 3], a: usize) -> bool {
     (0..3).any(|axis| match C[a][axis] {
         1 => x[axis] == 0,

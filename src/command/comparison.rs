@@ -21,7 +21,7 @@ const COLUMNS: [Column; 3] = [
     Column::new("exact_velocity", "m/s"),
 ];
 
-/// Compares the profile through the middle of the box, writes it as a table and draws it.
+/// Compares the profile through the middle of the domain, writes it as a table and draws it.
 pub(super) fn compare(
     scene: &Scene,
     exact: &PlanePoiseuille,

@@ -21,13 +21,13 @@ use crate::packing::{Amount, Sizes};
 /// What `psmrt pack` is asked for; lengths in m.
 #[derive(Args, Clone, Debug)]
 pub struct PackRequest {
-    /// Lets the grains settle into a bed on z = 0 instead of packing a periodic box
+    /// Lets the grains settle into a bed on z = 0 instead of packing a periodic domain
     #[arg(long)]
     pub bed: bool,
     /// Vertical walls at the sides of a bed instead of periodic ones
     #[arg(long, requires = "bed")]
     pub walls: bool,
-    /// Lengths of the box, m; for a bed x and y
+    /// Lengths of the domain, m; for a bed x and y
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', required = true)]
     pub size: Vec<f64>,
     /// Diameter of the grains, m

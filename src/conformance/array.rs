@@ -46,7 +46,7 @@ impl Array {
         Array { shape: vec![cells.len(), Q], values: cells.iter().flatten().copied().collect() }
     }
 
-    /// Populations of a box of `[nx, ny, nz]` cells, x fastest, of shape `[nz, ny, nx, 19]`.
+    /// Populations of a domain of `[nx, ny, nz]` cells, x fastest, of shape `[nz, ny, nx, 19]`.
     ///
     /// # Panics
     /// If there are not as many cells: a mistake in the calling code.

@@ -28,9 +28,9 @@ pub enum Task {
     Weights(SolidCells),
     /// Weights of cells with two solids.
     SharedWeights(SharedCells),
-    /// One streaming step of a box with its faces.
+    /// One streaming step of a domain with its faces.
     Streaming(Streaming),
-    /// A box, run for some steps.
+    /// A domain, run for some steps.
     Scene(Box<Scene>),
     /// Forces of single contacts.
     Contacts(Contacts),
@@ -104,7 +104,7 @@ pub struct SharedCells {
 /// Stage 4.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Streaming {
-    /// The box and its faces.
+    /// The domain and its faces.
     pub domain: Domain,
     /// Populations after the collision, cell by cell, x fastest.
     pub post: Vec<Populations>,

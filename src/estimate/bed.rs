@@ -1,5 +1,5 @@
 //! Where the grains of a scene lie densest: a bed with clear fluid above it is as tight as the bed, not as
-//! the box.
+//! the domain.
 //!
 //! Along an axis the solid fraction is averaged over slabs as thick as the largest grain. The bed is the
 //! stretch around the fullest slab in which such slabs hold at least half as much; it is found along one axis
@@ -12,25 +12,25 @@ use crate::scene::Scene;
 
 use super::spheres::{solid_fraction, spheres};
 
-/// A bed that is told from its box has at least this solid fraction: looser grains are a cloud, whose drag
+/// A bed that is told from its domain has at least this solid fraction: looser grains are a cloud, whose drag
 /// does not depend much on how they lie.
 pub(crate) const DENSE: f64 = 0.3;
 
 /// It holds the volume of so many of its largest grain, or it is a few that touch.
 const FEWEST: f64 = 4.0;
 
-/// It is so much denser than the box, or the box is the bed.
+/// It is so much denser than the domain, or the domain is the bed.
 const DENSER: f64 = 1.05;
 
 /// A slab is looked at every so many of its thickness.
 const EVERY: f64 = 0.125;
 
-/// A part of the box that holds a bed.
+/// A part of the domain that holds a bed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bed {
     /// Solid fraction.
     pub fraction: f64,
-    /// From where to where along each axis, cells; over an end of a periodic box it goes on at the other.
+    /// From where to where along each axis, cells; over an end of a periodic domain it goes on at the other.
     pub reaches: [[f64; 2]; 3],
 }
 
@@ -42,7 +42,7 @@ struct Part {
     share: f64,
 }
 
-/// The bed of a scene, if its grains are dense somewhere and the box is not as dense everywhere.
+/// The bed of a scene, if its grains are dense somewhere and the domain is not as dense everywhere.
 pub(crate) fn bed(scene: &Scene) -> Option<Bed> {
     let domain = &scene.setup.domain;
     let cells = domain.cells().map(|n| n as f64);

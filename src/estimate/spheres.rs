@@ -1,4 +1,4 @@
-//! The spheres of a scene, and how much of each the box holds.
+//! The spheres of a scene, and how much of each the domain holds.
 
 use psmrt_reference::domain::Face;
 use psmrt_reference::solids::{Shape, Solid};
@@ -24,7 +24,7 @@ pub(crate) fn spheres(scene: &Scene) -> Vec<(&Solid, f64, f64)> {
     solids.filter_map(|solid| Some((solid, sphere(solid)?, share(solid)))).collect()
 }
 
-/// Volume of the spheres over that of the box.
+/// Volume of the spheres over that of the domain.
 pub(crate) fn solid_fraction(scene: &Scene) -> f64 {
     let volume: f64 = spheres(scene)
         .iter()

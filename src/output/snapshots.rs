@@ -108,7 +108,7 @@ fn velocity(scene: &Scene) -> impl Fn(&CellState) -> [f64; 3] + use<> {
     move |cell| (cell.velocity * si_unit).into()
 }
 
-/// A place (m) moved into the box along periodic axes.
+/// A place (m) moved into the domain along periodic axes.
 fn wrapped(domain: &Domain, si_place: &[f64], si_dx: f64) -> [f64; 3] {
     std::array::from_fn(|axis| {
         let si_length = domain.cells()[axis] as f64 * si_dx;

@@ -31,7 +31,7 @@ impl<'a> Array<'a> {
 
 const HEAD: &str = "version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"";
 
-/// A box of `cells` cells of edge `spacing` from the origin, with values per cell in single
+/// A domain of `cells` cells of edge `spacing` from the origin, with values per cell in single
 /// precision.
 pub fn image(
     out: &mut impl Write,

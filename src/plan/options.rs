@@ -137,7 +137,7 @@ pub fn as_it_is(
     way(facts, models, (facts.cells, facts.si_dx), (facts.tau, collision), speed)
 }
 
-/// Cells along the axes and edge of a cell, for every grid that fills the box.
+/// Cells along the axes and edge of a cell, for every grid that fills the domain.
 fn refinements(facts: &Facts) -> Vec<([usize; 3], f64)> {
     let full: Vec<usize> = (0..3).filter(|&a| !facts.flat[a]).map(|a| facts.cells[a]).collect();
     let common = full.iter().copied().fold(0, gcd).max(1);

@@ -64,7 +64,7 @@ pub struct SceneFile {
     pub compare: Option<CompareSection>,
 }
 
-/// The domain, a box of cubic cells of edge `dx`. Give exactly one of `size` and `cells`.
+/// The domain, a domain of cubic cells of edge `dx`. Give exactly one of `size` and `cells`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DomainSection {
@@ -114,7 +114,7 @@ pub struct CollisionSection {
     pub model: CollisionModel,
     /// With `mrt`, the preset of the free rates: `dhumieres` (the default), `magic` (two relaxation times: TRT) or
     /// `srt`.
-    pub rates: Option<RatePreset>,
+    pub rates: Option<RatesName>,
     /// With `rates = "magic"`: the parameter Lambda, above 0; 3/16 = 0.1875 puts plane walls exactly half-way between nodes.
     pub magic: Option<f64>,
     /// With `mrt`: rate of the energy, in (0, 2), instead of the preset's.
@@ -143,7 +143,7 @@ pub enum CollisionModel {
 /// Where the free rates of MRT come from.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]
-pub enum RatePreset {
+pub enum RatesName {
     /// d'Humieres et al. 2002: 1.19, 1.4, 1.2, 1.4, 1.98.
     #[default]
     Dhumieres,

@@ -60,7 +60,7 @@ pub struct Scene {
     pub attachments: Vec<Attachment>,
     /// The scales.
     pub units: Units,
-    /// The box, the fluid and the solids in lattice units; free grains too, where they start.
+    /// The domain, the fluid and the solids in lattice units; free grains too, where they start.
     pub setup: Setup,
     /// How the grains move, if some are free.
     pub free: Option<FreePart>,

@@ -5,7 +5,7 @@ use crate::common;
 use approx::assert_abs_diff_eq;
 use common::random::{Random, largest_difference};
 use psmrt_reference::cell_collision::CellCollision;
-use psmrt_reference::collision::{Collision, CollisionOperator};
+use psmrt_reference::collision::{Collision, CollisionOperator, Preset};
 use psmrt_reference::coverage::{Coverage, CoverageRule};
 use psmrt_reference::directions::Q;
 use psmrt_reference::domain::{Domain, Faces};
@@ -285,4 +285,20 @@ fn a_cell_given_no_solid_costs_no_share() {
     let coverage = Coverage::new(&domain, &[solid], CoverageRule::Exact);
     assert!(coverage.shares(0).is_empty());
     assert_eq!(coverage.shares(1).len(), 1);
+}
+
+#[test]
+fn presets_are_recognised_by_their_word_and_by_their_rates() {
+    for preset in Preset::ALL {
+        assert_eq!(Preset::from_word(preset.word()), Some(preset), "by its word");
+        for tau in [0.51, 0.8, 1.5] {
+            let collision = preset.collision(tau).unwrap();
+            assert_eq!(Preset::of(&collision), Some(preset), "by its collision, tau = {tau}");
+            // The same with its rates given as numbers, under MRT.
+            let given = Collision::Mrt { rates: preset.rates(tau).unwrap() };
+            assert_eq!(Preset::of(&given), Some(preset), "by its rates, tau = {tau}");
+        }
+    }
+    let own = Rates::dhumieres(0.8).unwrap().with("e", 1.2).unwrap();
+    assert_eq!(Preset::of(&Collision::Mrt { rates: own }), None, "a rate of the user's own");
 }

@@ -1,8 +1,8 @@
-//! Gravity without a fall: what holds up the grains of a domain that is periodic along gravity.
+//! Gravity without acceleration of the whole: what balances the weight of grains in a domain that is periodic along gravity.
 //!
-//! Nothing at the faces of such a domain carries the grains' net weight: fluid and grains fall together
-//! faster and faster. In a long vessel a mean pressure gradient carries it. It is a uniform force per
-//! volume on all that is there, fluid and grains:
+//! No face of such a domain carries the grains' net weight: fluid and grains accelerate together. In a
+//! long vessel a mean pressure gradient balances it: a uniform force per
+//! volume on fluid and grains,
 //!
 //! ```text
 //!   G = -1/V Σ_s (m_s - m_f) g

@@ -15,9 +15,9 @@ const FASTEST: f64 = 0.5;
 /// What becomes of the inertia of the fluid inside a grain.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InternalFluid {
-    /// It stays with the grain, as if the grain were heavier by `m_f`.
+    /// Retained by the grain, as if it were heavier by `m_f`.
     Kept,
-    /// It is given back one step later.
+    /// Added back with a lag of one step.
     #[default]
     Lagged,
 }
@@ -31,7 +31,7 @@ pub enum Gravity {
         /// Acceleration, lattice units.
         acceleration: Vec3,
     },
-    /// By reduced pressure, and the net weight of all grains is carried by a uniform body force
+    /// By reduced pressure, and the net weight of all grains is balanced by a uniform body force
     /// ([`super::balancing_force`], which the set-up of the fluid must have): for domains that are periodic
     /// along gravity. Whoever drives the grains adds what the body force lacks in their cells to their
     /// loads ([`super::with_displaced`]).
@@ -68,7 +68,7 @@ pub struct CouplingSettings {
     pub gravity: Option<Gravity>,
     /// Use the mean of the last two loads (Ladd 1994, the paper's reference 7). Off by default: the PS
     /// load hardly alternates from step to step, and together with [`InternalFluid::Lagged`] the delay
-    /// lets the spin of a neutrally buoyant grain of 6 cells at tau = 1 swing for hundreds of steps,
+    /// lets the angular velocity of a neutrally buoyant grain of 6 cells at tau = 1 oscillate for hundreds of steps,
     /// which without it is calm after twenty.
     pub average_loads: bool,
     /// Density of the fluid at rest.
@@ -108,7 +108,7 @@ pub struct FreeGrains {
 }
 
 impl FreeGrains {
-    /// Grains in the fluid's box. The grains' set-up must not have gravity, which is in `settings`.
+    /// Grains in the fluid's domain. The grains' set-up must not have gravity, which is in `settings`.
     /// Errors if they cannot be moved.
     pub fn new(
         domain: &Domain,
@@ -185,7 +185,7 @@ impl FreeGrains {
         &self.grains
     }
 
-    /// The fluid's box.
+    /// The fluid's domain.
     pub(super) fn domain(&self) -> &Domain {
         &self.domain
     }
@@ -205,7 +205,7 @@ impl FreeGrains {
         self.grains.grains().iter().map(|grain| grain.mass * grain.velocity).sum()
     }
 
-    /// The grains' part of the momentum `Q` that a periodic box without gravity conserves.
+    /// The grains' part of the momentum `Q` that a periodic domain without gravity conserves.
     pub fn conserved_momentum(&self) -> Vec3 {
         let mut total = self.plain_momentum();
         for (grain, last) in self.grains.grains().iter().zip(&self.last) {

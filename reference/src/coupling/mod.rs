@@ -7,18 +7,18 @@
 //!    constant (`grains/system.rs`);
 //! 4. the solids of the fluid are put where the grains are now.
 //!
-//! **The fluid inside a grain.** The PS term drags along the fluid that a grain covers. Its inertia is
-//! in `F`, though a real grain has none of it: `F` is too small by `m_f dv/dt`, with `m_f = rho_f V`.
-//! [`InternalFluid::Lagged`] gives back `m_f` times the last step's change of velocity (and so for the
-//! spin). Giving back this step's change blows up near a density ratio of 1, since then nothing is
-//! left that has inertia; giving back nothing is stable and has the right terminal velocity after the
+//! **The fluid inside a grain.** The PS term makes the fluid that a grain covers follow it. The inertia of that fluid
+//! (the internal mass) is in `F`, though a real grain has none of it: `F` is too small by `m_f dv/dt`, with `m_f = rho_f V`.
+//! [`InternalFluid::Lagged`] adds back `m_f` times the last step's change of velocity (and so for the
+//! angular velocity). Adding back this step's change is unstable near a density ratio of 1, since then nothing is
+//! left that has inertia; adding back nothing is stable and has the right terminal velocity after the
 //! wrong start. `tests/oracle/coupling.rs` measures all three.
 //!
 //! The populations of the cells that a grain covers start with the grain's motion (`start.rs`): else
-//! the grain would pay for setting `m_f` in motion, which [`InternalFluid::Lagged`] gives back only
+//! the grain would pay for setting `m_f` in motion, which [`InternalFluid::Lagged`] adds back only
 //! for changes of its velocity from then on.
 //!
-//! **What is conserved.** Without gravity or with [`Gravity::Balanced`], in a periodic box, to round-off:
+//! **What is conserved.** Without gravity or with [`Gravity::Balanced`], in a periodic domain, to round-off:
 //!
 //! ```text
 //!   Q = Σ j + Σ_s (m_s v_n - m_f v_(n-1)) + 1/2 Σ_s F_(n-1)
@@ -166,7 +166,7 @@ impl CoupledSolver {
         self.fluid_momentum() + self.grains.plain_momentum()
     }
 
-    /// The momentum `Q` that a periodic box without gravity conserves to round-off (see the top of this
+    /// The momentum `Q` that a periodic domain without gravity conserves to round-off (see the top of this
     /// file).
     pub fn conserved_momentum(&self) -> Vec3 {
         self.fluid_momentum() + self.grains.conserved_momentum()

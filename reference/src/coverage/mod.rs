@@ -131,7 +131,7 @@ impl Coverage {
         if self.slot[cell] == BARE {
             self.slot[cell] = self.free.pop().unwrap_or_else(|| {
                 self.shares.push(Vec::with_capacity(1));
-                // The box has fewer than 2^32 - 1 cells, so the position fits.
+                // The domain has fewer than 2^32 - 1 cells, so the position fits.
                 #[expect(clippy::cast_possible_truncation, reason = "Domain::new bounds the cells")]
                 let position = self.shares.len() as u32 - 1;
                 position

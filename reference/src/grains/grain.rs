@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// A spherical grain, in any consistent units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
-    /// Its centre, length. Along periodic axes it is never wrapped: a grain that leaves the box goes
+    /// Its centre, length. Along periodic axes it is never wrapped: a grain that leaves the domain goes
     /// on counting; see [`crate::grains::setup::PeriodicBox::wrap`].
     pub position: Vec3,
     /// Velocity of the centre, length/time.

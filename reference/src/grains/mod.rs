@@ -10,7 +10,7 @@
 //! | | candidate pairs from a cell list | [`neighbours`] |
 //! | | their forces, computed and gathered in one order whatever the threads | [`pairs`] |
 //! | `m dv/dt = F` | velocity Verlet, the length of a sub-step | [`motion`] |
-//! | | the box, what a set of grains is set up with, and the checks | [`setup`] |
+//! | | the domain, what a set of grains is set up with, and the checks | [`setup`] |
 //! | | order of operations in a sub-step, checkpoints | [`system`] |
 //! | | whether contacts hold | [`hold`] |
 //! | | beds and suspensions to start from | [`packing`] |

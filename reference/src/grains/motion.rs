@@ -4,7 +4,7 @@
 //!   v' = v + a dt/2;   x += v' dt;   a from the forces at the new x;   v = v' + a dt/2
 //! ```
 //!
-//! and alike for the spin. The springs move with `v'`, as the centres do; the dashpots act on the
+//! and likewise for the angular velocity. The springs move with `v'`, as the centres do; the dashpots act on the
 //! velocity at the end of the sub-step, foretold as `v' + a dt/2` with the old `a`, which keeps
 //! second order.
 //!

@@ -17,20 +17,20 @@ use crate::grains::setup::PeriodicBox;
 use crate::lattice::Vec3;
 
 /// Two grains that may touch: the first and the image of the second that is moved by `image` lengths
-/// of the box.
+/// of the domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Candidate {
     /// Number of the first grain.
     pub first: u32,
     /// Number of the second grain, greater than the first.
     pub second: u32,
-    /// By how many lengths of the box the second is moved along x, y, z.
+    /// By how many lengths of the domain the second is moved along x, y, z.
     pub image: [i32; 3],
 }
 
 /// The pairs of grains whose surfaces are less than `reach` (length) apart, each once, sorted.
 ///
-/// Along periodic axes the box must be at least as long as the largest diameter plus `reach`.
+/// Along periodic axes the domain must be at least as long as the largest diameter plus `reach`.
 pub fn candidates(grains: &[Grain], sides: &PeriodicBox, reach: f64) -> Vec<Candidate> {
     if grains.is_empty() {
         return Vec::new();
@@ -67,7 +67,7 @@ struct Cells {
     periodic: [bool; 3],
     /// Cell of each grain.
     cell_of: Vec<[usize; 3]>,
-    /// How many lengths of the box each grain is away from it.
+    /// How many lengths of the domain each grain is away from it.
     wraps: Vec<[i32; 3]>,
     /// The grains of cell `c` are `sorted[starts[c]..starts[c + 1]]`.
     starts: Vec<usize>,
@@ -125,7 +125,7 @@ impl Cells {
     }
 
     /// Calls `found(second, image)` for the grains of greater number in the 27 cells about grain
-    /// `first`. A cell that the box shows several times is looked at once for each of its images.
+    /// `first`. A cell that the domain shows several times is looked at once for each of its images.
     fn for_each_neighbour(&self, first: usize, mut found: impl FnMut(usize, [i32; 3])) {
         let [x, y, z] = std::array::from_fn(|axis| self.steps(axis, self.cell_of[first][axis]));
         for &(cell_z, wrap_z) in z.iter().flatten() {
@@ -144,8 +144,8 @@ impl Cells {
         }
     }
 
-    /// The cells before, at and after `cell` along an axis, each with the lengths of the box by
-    /// which it is moved; `None` outside a box that is not periodic.
+    /// The cells before, at and after `cell` along an axis, each with the lengths of the domain by
+    /// which it is moved; `None` outside a domain that is not periodic.
     fn steps(&self, axis: usize, cell: usize) -> [Option<(usize, i32)>; 3] {
         let last = self.counts[axis] - 1;
         let periodic = self.periodic[axis];

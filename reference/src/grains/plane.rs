@@ -74,7 +74,7 @@ impl Plane {
         Plane { velocity, ..self }
     }
 
-    /// The walls at rest of a box from `low` to `high`, two for each axis of `axes` (0, 1 or 2), in
+    /// The walls at rest of a domain from `low` to `high`, two for each axis of `axes` (0, 1 or 2), in
     /// the order of the axes, the lower wall first.
     pub fn box_walls(low: Vec3, high: Vec3, axes: &[usize], law: ContactLaw) -> Vec<Self> {
         let wall = |axis: usize| {
@@ -89,7 +89,7 @@ impl Plane {
         (position - self.point).dot(&self.normal)
     }
 
-    /// Errors unless plane number `plane` can be used in a box with these periodic axes.
+    /// Errors unless plane number `plane` can be used in a domain with these periodic axes.
     pub fn check(&self, plane: usize, periodic: [bool; 3]) -> Result<(), PlaneError> {
         for (key, vector) in
             [("point", self.point), ("normal", self.normal), ("velocity", self.velocity)]

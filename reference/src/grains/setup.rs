@@ -9,10 +9,10 @@ use crate::grains::plane::{Plane, PlaneError};
 use crate::lattice::Vec3;
 use thiserror::Error;
 
-/// Which axes are periodic: along these the box spans `0..length`.
+/// Which axes are periodic: along these the domain spans `0..length`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PeriodicBox {
-    /// Length of the box along x, y, z; `None`: not periodic.
+    /// Length of the domain along x, y, z; `None`: not periodic.
     pub lengths: [Option<f64>; 3],
 }
 
@@ -22,7 +22,7 @@ impl PeriodicBox {
         PeriodicBox { lengths: lengths.map(Some) }
     }
 
-    /// The place inside the box of which `position` is an image.
+    /// The place inside the domain of which `position` is an image.
     pub fn wrap(&self, position: &Vec3) -> Vec3 {
         Vec3::from_fn(|i, _| {
             let length = self.lengths[i];
@@ -31,7 +31,7 @@ impl PeriodicBox {
         })
     }
 
-    /// From `first` to `second` moved by `image` lengths of the box.
+    /// From `first` to `second` moved by `image` lengths of the domain.
     pub fn offset(&self, first: &Vec3, second: &Vec3, image: [i32; 3]) -> Vec3 {
         // x₂ + k L - x₁
         let moved = Vec3::from_fn(|i, _| {
@@ -188,7 +188,7 @@ impl GrainSetup {
     }
 
     /// Distance beyond the range up to which the list of pairs looks ahead, length: a fifth of the
-    /// smallest diameter, or what the box leaves room for.
+    /// smallest diameter, or what the domain leaves room for.
     pub fn skin(&self, grains: &[Grain]) -> f64 {
         let radii = || grains.iter().map(|grain| grain.radius);
         let (smallest, largest) =

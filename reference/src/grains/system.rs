@@ -1,4 +1,4 @@
-//! Grains, planes and box together: the order of operations in a sub-step.
+//! Grains, planes and domain together: the order of operations in a sub-step.
 
 use crate::grains::contact::{ContactMemory, PairForce};
 use crate::grains::grain::Grain;

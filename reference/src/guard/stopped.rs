@@ -17,7 +17,7 @@ pub enum Symptom {
     NoDensity(f64),
     /// The fluid is faster than [`super::GuardSettings::max_speed`].
     TooFast(f64),
-    /// The mean density of the box is less than half or more than twice its first value.
+    /// The mean density of the domain is less than half or more than twice its initial value.
     MeanDensity(f64),
 }
 
@@ -45,12 +45,12 @@ pub enum Cause {
         /// The speed `sqrt(2 (p_high - p_low)/rho)` that the difference can drive.
         speed: f64,
     },
-    /// The mean density has drifted away: an inlet with a free outflow does not hold it.
+    /// The mean density has drifted away: an inlet with a free outflow does not determine it.
     DensityDrift {
         /// Mean density now over mean density at the first look.
         ratio: f64,
     },
-    /// A velocity inlet set in motion fluid that moved otherwise, and the sound of that start runs to and fro
+    /// A velocity inlet accelerated fluid that started with another velocity, and the sound of that start travels back and forth
     /// between the inlet and a pressure face.
     ImpulsiveStart {
         /// The inlet.
@@ -74,7 +74,7 @@ pub enum Cause {
         /// Its density over the fluid's.
         ratio: f64,
     },
-    /// Grains and fluid fall together, for ever faster, in a box that is periodic along gravity.
+    /// Grains and fluid accelerate together in a domain that is periodic along gravity.
     EndlessFall {
         /// Name of the axis.
         axis: &'static str,
@@ -205,7 +205,7 @@ impl fmt::Display for Stopped {
 /// Above this many cells' worth of advection per diffusion a flow cannot be resolved.
 const MAX_GRID_REYNOLDS: f64 = 10.0;
 
-/// A mean density this far from its first value has drifted, if something else broke.
+/// A mean density this far from its initial value has drifted, if something else broke.
 const MAX_DENSITY_DRIFT: f64 = 0.1;
 
 /// The first cause for which there is evidence, the most certain kinds first.

@@ -1,4 +1,4 @@
-//! Streaming and the faces of the box.
+//! Streaming and the faces of the domain.
 
 use psmrt_reference::directions::{C, Q, number_of};
 use psmrt_reference::domain::{Domain, Face};

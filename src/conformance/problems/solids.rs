@@ -81,7 +81,7 @@ fn shared() -> SharedCells {
     SharedCells { cells: fractions.map(|pair| (pair, 0.8)).to_vec() }
 }
 
-/// A box with spheres, made a scene of one step that asks for the loads.
+/// A domain with spheres, made a scene of one step that asks for the loads.
 fn one_step(
     seed: u64,
     operator: SolidOperator,

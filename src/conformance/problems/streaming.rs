@@ -1,4 +1,4 @@
-//! Stage 4: one streaming step of a small box with each kind of face.
+//! Stage 4: one streaming step of a small domain with each kind of face.
 
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::Vec3;

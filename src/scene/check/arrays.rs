@@ -1,4 +1,4 @@
-//! Regular arrays of spheres that fill the box.
+//! Regular arrays of spheres that fill the domain.
 
 use std::f64::consts::PI;
 

@@ -5,7 +5,7 @@ use psmrt_reference::rates::Rates;
 
 use super::Trouble;
 use super::numbers::{absent, needed};
-use crate::scene::format::{CollisionModel, CollisionSection, RatePreset};
+use crate::scene::format::{CollisionModel, CollisionSection, RatesName};
 
 /// The collision at relaxation time `tau`.
 pub(super) fn collision(section: &CollisionSection, tau: f64) -> Result<Collision, Trouble> {
@@ -27,13 +27,13 @@ pub(super) fn collision(section: &CollisionSection, tau: f64) -> Result<Collisio
         return Ok(Collision::Srt { tau });
     }
     let preset = rates.unwrap_or_default();
-    if preset != RatePreset::Magic {
+    if preset != RatesName::Magic {
         absent("collision.magic", magic.as_ref(), "`rates = \"magic\"`")?;
     }
     let (key, built) = match preset {
-        RatePreset::Dhumieres => ("collision.rates", Rates::dhumieres(tau)),
-        RatePreset::Srt => ("collision.rates", Rates::srt(tau)),
-        RatePreset::Magic => {
+        RatesName::Dhumieres => ("collision.rates", Rates::dhumieres(tau)),
+        RatesName::Srt => ("collision.rates", Rates::srt(tau)),
+        RatesName::Magic => {
             let remedy = "add `magic = 0.1875` (3/16: plane walls exact) or 0.25 (stability)";
             let magic = needed("collision.magic", *magic, "`rates = \"magic\"` needs it", remedy)?;
             ("collision.magic", Rates::magic(tau, magic))

@@ -1,4 +1,4 @@
-//! The box: how many cells it has.
+//! The domain: how many cells it has.
 
 use super::Trouble;
 use super::numbers::{beyond, positive, sane};
@@ -76,7 +76,7 @@ fn given_cells(given: [i64; 3]) -> Result<[usize; 3], Trouble> {
 /// Bytes that the oracle needs for a cell: two sets of populations and a slot for coverage.
 pub const BYTES_PER_CELL: u64 = 2 * 19 * 8 + 4;
 
-/// Errors if the box cannot be numbered or cannot fit into this machine's memory.
+/// Errors if the domain cannot be numbered or cannot fit into this machine's memory.
 fn check_memory(cells: [usize; 3], key: &str) -> Result<(), Trouble> {
     let remedy = "use a larger `dx` or a smaller domain; mirror planes (`free_slip`) halve it";
     let count = cells.iter().try_fold(1_usize, |product, &n| product.checked_mul(n));

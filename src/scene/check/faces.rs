@@ -34,7 +34,7 @@ pub(super) fn faces(
     Ok(Faces { x, y, z })
 }
 
-/// One face; `along`: cells of the box along its normal.
+/// One face; `along`: cells of the domain along its normal.
 fn face(name: &str, section: &FaceSection, along: usize, units: &Units) -> Result<Face, Trouble> {
     let key = |last: &str| format!("faces.{name}.{last}");
     if !matches!(section.kind, FaceKind::Wall | FaceKind::VelocityInlet) {
@@ -94,7 +94,7 @@ fn face(name: &str, section: &FaceSection, along: usize, units: &Units) -> Resul
     })
 }
 
-/// Memory of a non-reflecting face where a scene gives none, in times that sound takes across the box: the flow
+/// Memory of a non-reflecting face where a scene gives none, in times that sound takes across the domain: the flow
 /// between an inlet and such a face then settles fastest (`reference/src/non_reflecting.rs`).
 const CROSSINGS: f64 = 4.0;
 

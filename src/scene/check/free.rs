@@ -27,7 +27,7 @@ pub struct FreePart {
     pub setup: GrainSetup,
     /// The grains at the start, in the order of the solids of the fluid's set-up.
     pub grains: Vec<Grain>,
-    /// The faces of the box that hold grains back.
+    /// The faces of the domain that hold grains back.
     pub planes: Vec<Plane>,
     /// Gravity, the fluid inside the grains, averaging.
     pub settings: CouplingSettings,

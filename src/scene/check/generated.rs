@@ -20,7 +20,7 @@ use crate::scene::format_grains::GrainsSection;
 /// Above this solid fraction random places run out: grains are pushed apart instead.
 const DILUTE: f64 = 0.25;
 
-/// Volume of spheres over that of the box in their densest packing, rounded down.
+/// Volume of spheres over that of the domain in their densest packing, rounded down.
 const DENSEST: f64 = 0.74;
 
 /// More grains are refused: a scene is read in seconds.

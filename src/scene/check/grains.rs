@@ -28,7 +28,7 @@ pub(super) struct Ball {
     pub line: Option<usize>,
 }
 
-/// Where grains are put down: the box, and how a key of their section is called.
+/// Where grains are put down: the domain, and how a key of their section is called.
 pub(super) struct Place<'a> {
     pub at: &'a dyn Fn(&str) -> String,
     pub domain: &'a Domain,
@@ -36,7 +36,7 @@ pub(super) struct Place<'a> {
 }
 
 impl Place<'_> {
-    /// Lengths of the box, m.
+    /// Lengths of the domain, m.
     pub fn si_lengths(&self) -> [f64; 3] {
         self.domain.cells().map(|n| n as f64 * self.units.si_dx)
     }

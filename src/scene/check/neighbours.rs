@@ -1,4 +1,4 @@
-//! Whether grains lie inside the box and apart from each other.
+//! Whether grains lie inside the domain and apart from each other.
 
 use psmrt_reference::domain::{Domain, Face};
 use psmrt_reference::lattice::Vec3;
@@ -13,7 +13,7 @@ pub const MAX_OVERLAP: f64 = 0.01;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Errors if a grain's centre lies outside the box, or a face that is no mirror cuts through it.
+/// Errors if a grain's centre lies outside the domain, or a face that is no mirror cuts through it.
 pub(super) fn inside(
     key: &str,
     domain: &Domain,
@@ -63,7 +63,7 @@ pub(super) fn inside(
 ///
 /// Grains are entered one by one into cells of space, and compared with those that are there already.
 /// As long as none overlap, only so many fit about one, small or large: N grains take a time in
-/// proportion to N, whatever the shape of the box.
+/// proportion to N, whatever the shape of the domain.
 pub(super) fn apart(domain: &Domain, grains: &[Listed], units: &Units) -> Result<(), Trouble> {
     let mut space = Space::new(domain, grains);
     for (number, grain) in grains.iter().enumerate() {
@@ -92,7 +92,7 @@ pub(super) fn apart(domain: &Domain, grains: &[Listed], units: &Units) -> Result
     Ok(())
 }
 
-/// The box cut into cells about as large as a grain, each with the grains that touch it.
+/// The domain cut into cells about as large as a grain, each with the grains that touch it.
 struct Space {
     counts: [usize; 3],
     /// Their sides.
@@ -105,7 +105,7 @@ impl Space {
     fn new(domain: &Domain, grains: &[Listed]) -> Self {
         let lengths = domain.cells().map(|cells| cells as f64);
         let mean = grains.iter().map(|g| 2.0 * g.radius).sum::<f64>() / grains.len().max(1) as f64;
-        // No more cells than twice the grains, or a few: an empty box costs nothing.
+        // No more cells than twice the grains, or a few: an empty domain costs nothing.
         let room = lengths.iter().product::<f64>() / (2.0 * grains.len() as f64 + 8.0);
         let side = mean.max(room.cbrt());
         let counts = lengths.map(|length| whole(length / side).max(1));
@@ -117,7 +117,7 @@ impl Space {
         }
     }
 
-    /// The cells that a box about a grain touches, each once.
+    /// The cells that the cube around a grain touches, each once.
     fn touched(&self, centre: &Vec3, radius: f64) -> Vec<usize> {
         let [x, y, z] = std::array::from_fn(|axis| self.along(axis, centre[axis], radius));
         let (nx, ny) = (self.counts[0], self.counts[1]);

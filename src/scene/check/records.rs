@@ -28,7 +28,7 @@ pub struct Record {
 /// What a record holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum What {
-    /// Means over the box.
+    /// Means over the domain.
     Box,
     /// A line along `axis` through the point `through`.
     Profile {
@@ -245,7 +245,7 @@ fn si_range(key: &str, range: [f64; 2]) -> Result<[f64; 2], Trouble> {
     Err(Trouble::new(key, problem, "give the lowest value first, for example [0.0, 1e-3]"))
 }
 
-/// The middle of the box, in cells.
+/// The middle of the domain, in cells.
 pub fn middle(domain: &Domain) -> [f64; 3] {
     domain.cells().map(|n| 0.5 * n as f64)
 }

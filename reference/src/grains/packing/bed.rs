@@ -32,7 +32,7 @@ const PATIENCE: f64 = 20.0;
 /// What bounds a bed at the sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BedSides {
-    /// Vertical walls at 0 and at the lengths of the box, of the same law as the floor.
+    /// Vertical walls at 0 and at the lengths of the domain, of the same law as the floor.
     Walls,
     /// Periodic along x and y.
     Periodic,
@@ -41,7 +41,7 @@ pub enum BedSides {
 /// A settled bed that is wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SettledBed {
-    /// Lengths of the box along x and y.
+    /// Lengths of the domain along x and y.
     pub lengths: [f64; 2],
     /// What bounds it.
     pub sides: BedSides,

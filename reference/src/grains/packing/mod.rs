@@ -22,7 +22,7 @@ pub const TOUCHING: f64 = 1e-3;
 /// What can be said of a packing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PackingReport {
-    /// Void volume over volume: of a periodic box all of it, of a bed its middle half.
+    /// Void volume over volume: of a periodic domain all of it, of a bed its middle half.
     pub porosity: f64,
     /// Mean number of grains that a grain touches: gap below [`TOUCHING`]. Grains that touch none
     /// count, planes do not.

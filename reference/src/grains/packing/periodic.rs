@@ -33,11 +33,11 @@ const SCATTER: f64 = 0.01;
 /// Sub-steps from one look at the overlaps to the next.
 const LOOK_EVERY: u32 = 10;
 
-/// A periodic packing that is wanted. Its porosity is that of these radii in this box:
+/// A periodic packing that is wanted. Its porosity is that of these radii in this domain:
 /// [`crate::grains::packing::radius_for`] and [`crate::grains::packing::count_for`] find what fits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PeriodicPacking {
-    /// Lengths of the box, all three axes periodic.
+    /// Lengths of the domain, all three axes periodic.
     pub lengths: [f64; 3],
     /// Radius of each grain, length.
     pub radii: Vec<f64>,
@@ -116,7 +116,7 @@ impl PeriodicPacking {
         Ok(GrainSystem::new(GrainSetup { sides, ..GrainSetup::new(law) }, grains, Vec::new())?)
     }
 
-    /// The grains where they are now, at rest, in the box, at their own size.
+    /// The grains where they are now, at rest, in the domain, at their own size.
     fn finished(&self, system: &GrainSystem, porosity: f64) -> Packing {
         let sides = system.setup().sides;
         let at_rest = |(grain, &radius): (&Grain, &f64)| {

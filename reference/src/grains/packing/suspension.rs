@@ -1,7 +1,7 @@
 //! A random suspension: spheres put down one after the other at random, each where no other is.
 //!
-//! Random sequential addition: each place is drawn evenly from the box until one is free. It works in
-//! a box with any periodic axes and walls, up to solid fractions near 0.3 (it jams at 0.38); denser
+//! Random sequential addition: each place is drawn evenly from the domain until one is free. It works in
+//! a domain with any periodic axes and walls, up to solid fractions near 0.3 (it jams at 0.38); denser
 //! periodic ones are made by [`super::periodic`].
 
 use crate::grains::grain::Grain;
@@ -19,7 +19,7 @@ const MOST_TRIES: u32 = 200_000;
 /// A random suspension that is wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RandomSuspension {
-    /// Lengths of the box.
+    /// Lengths of the domain.
     pub lengths: [f64; 3],
     /// Which axes are periodic; at the ends of the others are walls.
     pub periodic: [bool; 3],
