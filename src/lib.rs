@@ -1,4 +1,4 @@
-//! psmrt: grains and water, resolved grain by grain.
+//! psmrt: particle-resolved simulation of grains in water (PS-MRT lattice Boltzmann, partially saturated method).
 //!
 //! | module | what it does |
 //! |---|---|
@@ -8,7 +8,7 @@
 //! | [`run`] | the time loop |
 //! | [`checkpoint`] | the state of a run in a file |
 //! | [`output`] | CSV, pictures, the folder of a run |
-//! | [`estimate`] | what a scene will be, cost and risk |
+//! | [`estimate`] | what a scene is, what it will cost and what may go wrong |
 //! | [`cases`] | the acceptance cases: measured, judged, drawn |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`courses`] | what prescribed spheres run into |

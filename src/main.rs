@@ -23,7 +23,7 @@ use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
 use psmrt::quote;
 
-/// Grains and water, resolved grain by grain: lattice Boltzmann with a verified oracle.
+/// Particle-resolved simulation of grains in water: lattice Boltzmann with a verified oracle.
 #[derive(Parser)]
 #[command(
     version,
@@ -43,7 +43,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Says what a scene will be, cost and risk, without running it
+    /// Shows what a scene is, what it will cost and what may go wrong, without running it
     #[command(after_help = "Examples:
   psmrt check golden/poiseuille/scene.toml
   psmrt check golden/poiseuille/scene.toml --set time.tau=0.6 --json")]
@@ -57,7 +57,7 @@ enum Command {
         engine: EngineArguments,
     },
     /// Runs a scene
-    #[command(after_help = "Ctrl-C saves the state; `psmrt resume` goes on from it.
+    #[command(after_help = "Ctrl-C saves the state; `psmrt resume` continues from it.
 
 Exit codes: 0 done; 1 failed; 2 wrong scene or options; 3 at its limit and not steady
 (with `stop.steady`; the results are written all the same); 130 interrupted.
@@ -80,10 +80,10 @@ Examples:
         #[arg(long)]
         profile: bool,
     },
-    /// Goes on with a run from its newest checkpoint
+    /// Continues a run from its newest checkpoint
     #[command(
         after_help = "A run that has finished is left as it is. Nothing is deleted: what a run without a checkpoint has written
-is set aside when it starts again.
+is renamed when it starts again.
 
 Example:
   psmrt resume out/steel"
@@ -163,7 +163,7 @@ Examples:
   psmrt tradeoff --out golden/tradeoff"
     )]
     Tradeoff(TradeoffRequest),
-    /// Says what this program is and what it runs on
+    /// Shows what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
     #[command(after_help = "Example:

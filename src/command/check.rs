@@ -1,4 +1,4 @@
-//! `psmrt check`: what a scene will be, cost and risk, before it runs.
+//! `psmrt check`: what a scene is, what it will cost and what may go wrong, before it runs.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

@@ -33,7 +33,7 @@ pub struct PackRequest {
     /// Diameter of the grains, m
     #[arg(long, value_name = "M")]
     pub diameter: Option<f64>,
-    /// Largest diameter, m; all between it and --diameter are as frequent
+    /// Largest diameter, m: sizes are uniformly distributed by number between --diameter and it
     #[arg(long, value_name = "M", requires = "diameter")]
     pub largest_diameter: Option<f64>,
     /// Number of grains
@@ -42,7 +42,7 @@ pub struct PackRequest {
     /// Void volume over volume, of a periodic packing: 0.4 or 40%
     #[arg(long, value_name = "N", value_parser = |text: &str| part(text, "40% or 0.4"))]
     pub porosity: Option<f64>,
-    /// Friction while a bed settles; 0 packs dense
+    /// Friction while a bed settles; 0 gives the densest packing
     #[arg(long, value_name = "MU", default_value_t = 0.5)]
     pub friction: f64,
     /// Density of the grains for the list, kg/m3
