@@ -93,7 +93,7 @@ pub fn shortage(scene: &Scene) -> Option<(String, &'static str)> {
         parts(scene).iter().map(|part| format!("{} {}", part.what, mib(part.bytes))).collect();
     let [nx, ny, nz] = scene.setup.domain.cells();
     let problem = format!(
-        "the box of {nx} x {ny} x {nz} cells needs {} of memory ({}; {} besides), and {left} can be had \
+        "the domain of {nx} x {ny} x {nz} cells needs {} of memory ({}; {} besides), and {left} can be had \
          ({limit})",
         mib(needed),
         list.join(", "),

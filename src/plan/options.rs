@@ -109,7 +109,7 @@ pub fn why_none(facts: &Facts, models: &Models) -> String {
     if !resolutions.iter().any(is_known) {
         let [nx, ny, nz] = facts.cells;
         return format!(
-            "no grid that fills the box of {nx} x {ny} x {nz} cells has as many cells per diameter, or between \
+            "no grid that fits the domain of {nx} x {ny} x {nz} cells has as many cells per diameter, or between \
              walls, as the evidence (4 to 23, and 6 and more): choose a box whose sides share a larger divisor"
         );
     }

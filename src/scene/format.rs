@@ -188,11 +188,11 @@ pub struct FaceSection {
     /// default) the face transmits no shear stress, as at the mouth of a jet: each end makes a channel effectively
     /// shorter by a twentieth of its width.
     pub developed: Option<bool>,
-    /// At a `pressure` face: whether sound leaves through it (false where absent). For a while the pressure there
-    /// then follows the wave that arrives; over times longer than `memory` it is the one given. Shear stress is let
-    /// through as with `developed = true`. Of a wave of period P the share 1/(1 + (4 pi memory/P)^2) of the energy
-    /// comes back, of one that arrives at 45 degrees to the normal 3 % and at 60 degrees 11 % besides. To eddies that
-    /// leave within the memory the face is a screen: where they matter give a `memory` shorter than they take.
+    /// At a `pressure` face: whether sound leaves through it (false where absent). The pressure there then follows
+    /// the wave that arrives; over times longer than `memory` it is the given one. The shear stress is
+    /// transmitted as with `developed = true`. Of a wave of period P the share 1/(1 + (4 pi memory/P)^2) of the energy
+    /// comes back, of one that arrives at 45 degrees to the normal 3 % and at 60 degrees 11 % besides. Eddies that
+    /// leave within the memory are impeded by the face: where they matter give a `memory` shorter than their passage.
     pub non_reflecting: Option<bool>,
     /// At a non-reflecting face: time after which its pressure is held again, s, from 1 to 10^6 time steps. Where
     /// absent 4 times that in which sound crosses the domain along the normal (4 sqrt(3) steps a cell): with it the

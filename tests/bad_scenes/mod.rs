@@ -165,7 +165,7 @@ pub const BAD: &[Bad] = &[
     Bad("pressure = 0.0 }", "pressure = 0.0, non_reflecting = true, developed = false }", "faces.x_high.developed", "lets the shear stress through"),
     Bad("pressure = 0.0 }", "pressure = 0.0, non_reflecting = true, memory = 0.0 }", "faces.x_high.memory", "1 to 1e6 are allowed"),
     Bad("pressure = 0.0 }", "pressure = 0.0, non_reflecting = true, memory = -1.0 }", "faces.x_high.memory", "1 to 1e6 are allowed"),
-    Bad("pressure = 0.0 }", "pressure = 0.0, non_reflecting = true, memory = 1e9 }", "faces.x_high.memory", "that sound takes along the box"),
+    Bad("pressure = 0.0 }", "pressure = 0.0, non_reflecting = true, memory = 1e9 }", "faces.x_high.memory", "that sound takes along the domain"),
     Bad("pressure = 0.0 }", "pressure = 0.0, non_reflecting = true, memory = nan }", "faces.x_high.memory", "finite"),
     Bad("pressure = 0.0 }", "pressure = 0.0, non_reflecting = 1 }", "faces.x_high.non_reflecting", "true or false"),
     Bad("pressure = 0.0 }", "pressure = 0.0, nonreflecting = true }", "faces.x_high.nonreflecting", "psmrt calls it `non_reflecting`"),

@@ -116,7 +116,7 @@ fn memory(key: &str, si_memory: Option<f64>, along: usize, units: &Units) -> Res
         "it is {memory:.3e} time steps; 1 to {LONGEST_MEMORY:e} are allowed, {shortest:.3e} to {longest:.3e} s"
     );
     let remedy = format!(
-        "remove it: {CROSSINGS} times the time that sound takes along the box, {:.3e} s, stands for it",
+        "remove it: {CROSSINGS} times the time that sound takes along the domain, {:.3e} s, stands for it",
         CROSSINGS * along as f64 / CS2.sqrt() * units.si_dt
     );
     Err(Trouble::new(key, problem, remedy))
