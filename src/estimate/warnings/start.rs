@@ -1,8 +1,10 @@
 //! Warnings of a start whose sound does not decay: a velocity inlet accelerates fluid that starts with another
-//! velocity, and the wave travels back and forth between it and a pressure face.
+//! velocity, and the wave travels back and forth between it and a pressure face; or a non-reflecting face lets it out,
+//! but holds its pressure again only after its memory.
 
 use std::f64::consts::PI;
 
+use nalgebra::Complex;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::lattice::{CS2, Vec3, viscosity};
@@ -35,11 +37,30 @@ fn start(scene: &Scene, axis: usize, side: usize, velocity: &Vec3) -> Option<War
     if missed <= SMALL * velocity[axis].abs() {
         return None;
     }
+    let faces = scene.setup.domain.faces();
+    let [x, y, z] = velocity.map(|u| u * scene.units.si_velocity()).into();
+    let remedy = format!(
+        "start the fluid with the inlet's velocity: `initial.velocity = [{x:?}, {y:?}, {z:?}]`"
+    );
+    if let Face::NonReflectingPressure { memory, .. } = faces.axis(axis)[1 - side] {
+        let cells = scene.setup.domain.cells()[axis] as f64;
+        let left = left_before_open_face(memory, cells, scene.stop.steps as f64);
+        let reason = format!(
+            "the inlet at face {} accelerates fluid that does not start with its velocity: that raises the \
+             density by {:.1} %, until the non-reflecting face {} holds its pressure again, over a memory of {:.2e} s; \
+             {:.0} % of the rise is left when the run ends",
+            FACE_NAMES[axis][side],
+            100.0 * missed / CS2.sqrt(),
+            FACE_NAMES[axis][1 - side],
+            memory * scene.units.si_dt,
+            100.0 * left
+        );
+        return (left >= SMALL).then(|| warning(reason, remedy + ", or let the run last longer"));
+    }
     let left = decay(scene, axis)?.powf(scene.stop.steps as f64);
     if left < SMALL {
         return None;
     }
-    let si_velocity = velocity.map(|u| u * scene.units.si_velocity());
     let reason = format!(
         "the inlet at face {} accelerates fluid that does not start with its velocity: the sound of that start \
          travels back and forth between the inlet and the pressure face; the velocity oscillates by up to {:.0} % of \
@@ -50,11 +71,29 @@ fn start(scene: &Scene, axis: usize, side: usize, velocity: &Vec3) -> Option<War
         100.0 * missed / CS2.sqrt(),
         100.0 * left
     );
-    let [x, y, z] = si_velocity.into();
-    let remedy = format!(
-        "start the fluid with the inlet's velocity: `initial.velocity = [{x:?}, {y:?}, {z:?}]`"
-    );
-    Some(warning(reason, remedy))
+    Some(warning(
+        reason,
+        remedy + ", or let the sound out: `non_reflecting = true` at the pressure face",
+    ))
+}
+
+/// What is left, after so many steps, of the rise of the mean density with which a stream of `cells` cells starts from
+/// rest between an inlet and a non-reflecting face.
+fn left_before_open_face(memory: f64, cells: f64, steps: f64) -> f64 {
+    // The inlet sends sound back as it came, the face with r = -1/(1 + 2sT): a mode exp(st) of a box of L cells has
+    // 1 + θz + exp(-z) = 0 with z = 2 s L/c_s, θ = T c_s/L. The slowest, by Newton's method.
+    let theta = memory * CS2.sqrt() / cells;
+    let swings = theta < 3.6;
+    let mut z =
+        if swings { Complex::new(-0.1, PI / (1.0 + theta)) } else { Complex::new(0.0, 0.0) };
+    for _ in 0..60 {
+        let back = (-z).exp();
+        z -= (1.0 + theta * z + back) / (theta - back);
+    }
+    // Its part in the start, by Laplace's transform: 4 exp(-z) sinh(z/2)/(z² (θ - exp(-z))), and its conjugate.
+    let part = 4.0 * (-z).exp() * (0.5 * z).sinh() / (z * z * (theta - (-z).exp()));
+    let both = if swings { 2.0 } else { 1.0 };
+    (both * part.norm() * (0.5 * z.re * steps * CS2.sqrt() / cells).exp()).min(1.0)
 }
 
 /// What a step leaves of the slowest standing wave between an inlet and a pressure face along `axis`, a
