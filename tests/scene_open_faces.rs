@@ -161,7 +161,7 @@ fn stream_before_a_non_reflecting_outlet_has_left_of_its_start_what_check_says()
         };
         let before: Vec<f64> = (0..steps).map(|_| rise()).collect();
         let measured = if swings {
-            // A swing takes 4 to 8 L/c_s: the largest on either side of the end is above what is said and below it.
+            // A swing takes 4 to 8 L/c_s: its size at the end is between the largest before and after.
             let largest =
                 |rises: &mut dyn Iterator<Item = f64>| rises.map(f64::abs).fold(0.0, f64::max);
             let (before, after) = (

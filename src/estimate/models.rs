@@ -47,6 +47,11 @@ pub fn models(scene: &Scene) -> Vec<String> {
             let name = FACE_NAMES[axis][side];
             match setup.domain.faces().axis(axis)[side] {
                 Face::Periodic => {}
+                Face::NonReflectingPressure { memory, .. } => models.push(format!(
+                    "face {name}: {}, memory {:.4e} s",
+                    face_words(&setup.domain.faces().axis(axis)[side]),
+                    memory * scene.units.si_dt
+                )),
                 face => models.push(format!("face {name}: {}", face_words(&face))),
             }
         }
@@ -81,7 +86,7 @@ fn face_words(face: &Face) -> &'static str {
         Face::Pressure { .. } => "pressure, anti-bounce-back",
         Face::DevelopedPressure { .. } => "pressure, developed flow, non-equilibrium extrapolation",
         Face::NonReflectingPressure { .. } => {
-            "pressure, non-reflecting: non-equilibrium extrapolation, the density following the outgoing wave"
+            "pressure, non-reflecting, non-equilibrium extrapolation at the density of the outgoing wave"
         }
     }
 }

@@ -190,13 +190,19 @@ pub struct FaceSection {
     pub developed: Option<bool>,
     /// At a `pressure` face: whether sound leaves through it (false where absent). The pressure there then follows
     /// the wave that arrives; over times longer than `memory` it is the given one. The shear stress is
-    /// transmitted as with `developed = true`. Of a wave of period P the share 1/(1 + (4 pi memory/P)^2) of the energy
-    /// comes back, of one that arrives at 45 degrees to the normal 3 % and at 60 degrees 11 % besides. Eddies that
-    /// leave within the memory are impeded by the face: where they matter give a `memory` shorter than their passage.
+    /// transmitted as with `developed = true`. Of the energy of a wave of period P the share
+    /// 1/(1 + (4 pi memory/P)^2) is reflected (by a pressure face nearly all, by a free outflow about 6 %), of one that
+    /// arrives at 30 degrees to the normal at least 0.5 %, at 45 degrees 3 %, at 60 degrees 11 %. Eddies that leave
+    /// within the memory are impeded by the face: one of radius R and speed u' in a stream U meets a pressure of about
+    /// 0.4 rho U u' with the default (0.3 at a developed face) and a tenth of it stays for a while; with a memory of
+    /// R/(4 U) it meets 0.1. Between two such faces a pressure difference accelerates the fluid as if the domain were
+    /// longer by 2 c_s memory: nine times as long with the default. The speed of sound c_s is the lattice's,
+    /// dx/(sqrt(3) dt).
     pub non_reflecting: Option<bool>,
     /// At a non-reflecting face: time after which its pressure is held again, s, from 1 to 10^6 time steps. Where
-    /// absent 4 times that in which sound crosses the domain along the normal (4 sqrt(3) steps a cell): with it the
-    /// flow between a velocity inlet and the face settles about as fast as it can.
+    /// absent 4 times that in which sound crosses the domain along the normal (4 sqrt(3) steps a cell): of the memories
+    /// with which the flow between a velocity inlet and the face settles fast, to a thousandth in 20 crossings, the one
+    /// that sends least sound back.
     pub memory: Option<f64>,
 }
 

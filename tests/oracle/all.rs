@@ -33,6 +33,7 @@ mod leakage;
 mod limits;
 mod moments;
 mod momentum_balance;
+mod non_reflecting;
 mod poiseuille;
 mod ps_channel_wall;
 mod reproducible;

@@ -1,4 +1,4 @@
-//! Sound at open faces: how much of it comes back, and how soon a flow settles that it has set swinging.
+//! Sound at open faces: how much of it comes back.
 
 use crate::common;
 
@@ -9,15 +9,10 @@ use common::collisions::{dhumieres, magic};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::{CS2, Vec3, viscosity};
-use psmrt_reference::setup::{Setup, SolidPhase};
-use psmrt_reference::solids::Solid;
+use psmrt_reference::setup::Setup;
 use psmrt_reference::solver::Solver;
 
 const PRESSURE: Face = Face::Pressure { density: 1.0 };
-
-fn along_x(u: f64) -> Vec3 {
-    Vec3::new(u, 0.0, 0.0)
-}
 
 fn non_reflecting(memory: f64) -> Face {
     Face::NonReflectingPressure { density: 1.0, memory }
@@ -169,124 +164,4 @@ fn of_sound_that_arrives_obliquely_the_share_of_theory_comes_back() {
             "{degrees} degrees to the normal: |r| = {r}, by theory {theory}"
         );
     }
-}
-
-/// The stream of 64 cells between an inlet of 0.05 and `face` that rings without end at a pressure face: tau of a gas.
-fn plug(face: Face) -> Solver {
-    let inlet = Face::VelocityInlet { velocity: along_x(0.05) };
-    let domain = Domain::new([64, 1, 1], Faces { x: [inlet, face], ..Faces::PERIODIC }).unwrap();
-    Solver::new(Setup::fluid(domain, dhumieres(0.50225))).unwrap()
-}
-
-#[test]
-fn stream_that_starts_from_rest_settles_before_a_non_reflecting_outlet() {
-    let mut budget = Budget::oracle(900_000);
-    // Largest distance of the mean velocity from the inlet's over four crossings, a period of the ringing, and of
-    // the mean density from 1.
-    let mut off_after = |face, crossings: f64| {
-        let mut solver = plug(face);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "thousands")]
-        budget.run(&mut solver, ((crossings - 4.0) * crossing(64.0)) as u64);
-        let (mut velocity, mut density) = (0.0_f64, 0.0_f64);
-        for _ in 0..444 {
-            budget.run(&mut solver, 1);
-            let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / 64.0;
-            let u = mean(&mut solver.velocity_field().iter().map(|u| u.x));
-            velocity = velocity.max((u / 0.05 - 1.0).abs());
-            density = density.max((mean(&mut solver.density_field().into_iter()) - 1.0).abs());
-        }
-        (velocity, density)
-    };
-    let open = non_reflecting(4.0 * crossing(64.0));
-    let (velocity, density) = off_after(open, 24.0);
-    println!("after 24 crossings: velocity off by {velocity:.1e}, density by {density:.1e}");
-    // Why: by linear acoustics the modes of a memory of four crossings fall like exp(-0.405 n) over n crossings, to
-    // 9e-4 at 20, where this looks first; compression (u/c_s = 9 %) and waves of a grid of 64 cells may triple that.
-    assert!(velocity < 3e-3, "the velocity is off by {velocity:e} of the inlet's");
-    assert!(density < 3e-3 * 0.05 / CS2.sqrt(), "the mean density is off by {density:e}");
-    let (velocity, _) = off_after(PRESSURE, 24.0);
-    assert!(
-        velocity > 0.5,
-        "before a pressure face the velocity swings by {velocity} only: is this test still needed?"
-    );
-    // Memories of a quarter of that and of four times that settle later.
-    let [short, default, long] =
-        [1.0, 4.0, 16.0].map(|times| off_after(non_reflecting(times * crossing(64.0)), 20.0).0);
-    println!("after 20 crossings by memory: 1: {short:.1e}, 4: {default:.1e}, 16: {long:.1e}");
-    assert!(
-        default < short && default < long,
-        "a memory of 4 crossings leaves {default:e}, of 1 {short:e}, of 16 {long:e}"
-    );
-}
-
-#[test]
-fn flow_round_a_ball_two_diameters_before_a_non_reflecting_outlet_settles_to_that_of_a_developed_one()
- {
-    const D: f64 = 5.0;
-    let inlet = Face::VelocityInlet { velocity: along_x(0.02) };
-    let sides = [Face::FreeSlip; 2];
-    let cells = [30, 12, 12];
-    let setup = |outlet| {
-        let domain = Domain::new(cells, Faces { x: [inlet, outlet], y: sides, z: sides }).unwrap();
-        // Its surface is two diameters from the outlet.
-        let ball = Solid::fixed_sphere(Vec3::new(30.0 - 2.5 * D, 6.0, 6.0), 0.5 * D);
-        let phase = SolidPhase { solids: vec![ball], ..SolidPhase::default() };
-        Setup::fluid(domain, dhumieres(0.55)).with_solids(phase)
-    };
-    let mut budget = Budget::oracle(7_900_000);
-    let mut solver = Solver::new(setup(non_reflecting(4.0 * crossing(30.0)))).unwrap();
-    let force = |solver: &Solver| solver.loads()[0].force.x;
-    budget.run(&mut solver, 1200);
-    let settled = force(&solver);
-    let developed = setup(Face::DevelopedPressure { density: 1.0 });
-    let mut other = Solver::going_on_from(developed, solver.populations().to_vec(), {
-        let mut memory = solver.memory();
-        memory.slow_means.clear();
-        memory
-    })
-    .unwrap();
-    let (mut swing, mut mean) = (0.0_f64, 0.0);
-    // Two periods of sound between inlet and outlet, 4 L/c_s.
-    for _ in 0..40 {
-        budget.run(&mut solver, 10);
-        swing = swing.max((force(&solver) / settled - 1.0).abs());
-    }
-    // One: the change of faces sends out a little sound, which there rings on.
-    for _ in 0..26 {
-        budget.run(&mut other, 8);
-        mean += force(&other) / 26.0;
-    }
-    let changed = (mean / settled - 1.0).abs();
-    println!(
-        "force {settled:.3e}, swings by {swing:.1e}, at a developed face changes by {changed:.1e}"
-    );
-    // Why 1e-3: 23 crossings leave exp(-0.405 · 23) = 1e-4 of the start, and the force swings more than the velocity.
-    assert!(swing < 1e-3, "the force on the ball still swings by {swing:e} of itself");
-    assert!(
-        changed < 1e-3,
-        "the steady flow is not that of a developed face: there the force changes by {changed:e}"
-    );
-}
-
-#[test]
-fn run_gone_on_with_from_its_memory_gives_the_same_bits() {
-    let open = non_reflecting(20.0);
-    let inlet = Face::VelocityInlet { velocity: along_x(0.05) };
-    // A corner at which two such faces meet.
-    let faces = Faces { x: [inlet, open], y: [Face::wall(), open], ..Faces::PERIODIC };
-    let setup = Setup::fluid(Domain::new([7, 6, 5], faces).unwrap(), dhumieres(0.6));
-    let mut budget = Budget::oracle(20_000);
-    let mut straight = Solver::new(setup.clone()).unwrap();
-    budget.run(&mut straight, 30);
-    let (f, memory) = (straight.populations().to_vec(), straight.memory());
-    assert_eq!(
-        memory.slow_means.len(),
-        6 * 5 + 7 * 5,
-        "one slow mean for each cell at each such face"
-    );
-    let mut resumed = Solver::going_on_from(setup, f, memory).unwrap();
-    budget.run(&mut straight, 30);
-    budget.run(&mut resumed, 30);
-    assert!(straight.populations() == resumed.populations(), "populations differ");
-    assert_eq!(straight.memory(), resumed.memory());
 }

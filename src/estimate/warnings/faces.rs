@@ -14,7 +14,8 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     {
         return vec![warning(
             "a velocity inlet with a free outflow does not determine the mean density",
-            "use a `pressure` outlet, or watch the column density of a record `box`",
+            "use a `pressure` outlet (sound leaves through it with `non_reflecting = true`), or watch the column density \
+             of a record `box`",
         )];
     }
     Vec::new()
