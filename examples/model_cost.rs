@@ -17,7 +17,7 @@ use std::fmt::Write;
 use std::process::Command;
 use std::sync::Arc;
 
-use psmrt::cases::EngineName;
+use psmrt::engine::EngineName;
 use psmrt::engine::{Engine, KernelEngine, ReferenceEngine};
 use psmrt::kernel::Gpu;
 use psmrt::scene::FreePart;

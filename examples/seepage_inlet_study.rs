@@ -11,7 +11,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use psmrt::cases::{Bench, CaseError, EngineName, Study};
+use psmrt::cases::{Bench, CaseError, Study};
+use psmrt::engine::EngineName;
 use psmrt::kernel::Gpu;
 use psmrt::run::{End, RunError};
 

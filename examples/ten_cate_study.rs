@@ -21,8 +21,9 @@
 mod common;
 
 use common::settling::{Experiment, Fall, Moment, compare};
-use psmrt::cases::{Study, Table};
+use psmrt::cases::Study;
 use psmrt::scene::{EngineKind, Scene};
+use psmrt::table::Table;
 use std::error::Error;
 use std::io;
 use std::path::Path;

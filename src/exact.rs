@@ -5,7 +5,7 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::Setup;
 
-use crate::scene::Units;
+use crate::units::Units;
 
 /// Steady flow between two parallel walls at rest, driven by a body force along them.
 #[derive(Clone, Copy, Debug, PartialEq)]

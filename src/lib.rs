@@ -19,6 +19,8 @@
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
 //! | [`stability`] | where the method survives and where it is right |
+//! | [`table`] | rows of named columns, as CSV files hold them |
+//! | [`units`] | SI units and lattice units |
 //! | [`input`] | reading of files that the user names |
 //! | [`quote`] | how the user's text stands in messages |
 //! | [`machine`] | what this machine has |
@@ -47,4 +49,6 @@ pub mod run;
 pub mod scene;
 pub mod stability;
 pub mod stopped_grain;
+pub mod table;
 pub mod tradeoff;
+pub mod units;

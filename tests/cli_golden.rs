@@ -3,7 +3,8 @@
 mod common;
 
 use common::Budget;
-use psmrt::cases::{CASES, Table};
+use psmrt::cases::CASES;
+use psmrt::table::Table;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};

@@ -6,7 +6,7 @@ mod common;
 mod edges;
 
 use common::Budget;
-use psmrt::cases::EngineName;
+use psmrt::engine::EngineName;
 use psmrt::stability::Lab;
 
 const LAB: Lab = Lab { gpu: None };

@@ -8,7 +8,7 @@ mod trials;
 use std::process::ExitCode;
 
 use common::Budget;
-use psmrt::cases::EngineName;
+use psmrt::engine::EngineName;
 use psmrt::stability::Lab;
 
 fn lab() -> Lab {

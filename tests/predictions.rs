@@ -7,7 +7,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use common::Budget;
-use psmrt::cases::Table;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::estimate::speed::{Try, seconds_per_step};
 use psmrt::estimate::{numbers, warnings};
@@ -16,6 +15,7 @@ use psmrt::plan::facts::{Facts, Limit};
 use psmrt::plan::options::{Speed, as_it_is, cheapest, ways};
 use psmrt::plan::write::text;
 use psmrt::scene::Scene;
+use psmrt::table::Table;
 use psmrt::tradeoff::evidence::{SolidKnob, committed_sweep};
 use psmrt::tradeoff::evidence_low::low_points;
 use psmrt::tradeoff::knobs::CollisionKnob;

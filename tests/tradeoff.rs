@@ -6,7 +6,8 @@ mod common;
 use cli::Folder;
 use common::{Budget, golden_rows};
 use proptest::prelude::*;
-use psmrt::cases::{CASES, Golden, Table};
+use psmrt::cases::{CASES, Golden};
+use psmrt::table::Table;
 use psmrt::tradeoff::effects;
 use psmrt::tradeoff::evidence::{
     GrainPoint, SolidKnob, committed_sweep, grain_points, wall_points,

@@ -9,32 +9,14 @@ use std::sync::Arc;
 
 use tempfile::TempDir;
 
-use super::{Case, CaseError, Settled, Table};
+use super::{Case, CaseError, Settled};
 use crate::checkpoint;
-use crate::engine::{Engine, KernelEngine, ReferenceEngine};
+use crate::engine::{self, Engine, EngineName};
 use crate::kernel::Gpu;
 use crate::output::folder::RunFolder;
 use crate::run::{End, Watcher, run, set_aside};
 use crate::scene::Scene;
-
-/// Which engine a case runs on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EngineName {
-    /// The oracle.
-    Reference,
-    /// The kernel.
-    Wgpu,
-}
-
-impl EngineName {
-    /// As tables and `--engine` spell it.
-    pub fn word(self) -> &'static str {
-        match self {
-            EngineName::Reference => "reference",
-            EngineName::Wgpu => "wgpu",
-        }
-    }
-}
+use crate::table::Table;
 
 /// Runs scenes for cases.
 pub struct Bench {
@@ -119,7 +101,7 @@ impl Bench {
     /// A table of the folder of a case. Errors if it cannot be read.
     pub fn literature(&self, case: &str, file: &str) -> Result<Table, CaseError> {
         self.read.borrow_mut().insert(file.to_owned());
-        Table::read(&self.golden.join(case).join(file))
+        Ok(Table::read(&self.golden.join(case).join(file))?)
     }
 
     /// The tables of a case's folder that were read, since they were last asked for.
@@ -151,10 +133,7 @@ impl Bench {
     pub fn run(&mut self, scene: &str, changes: &[String]) -> Result<(Finished, End), CaseError> {
         (self.tell)(&format!("{} on {}: {}", scene, self.engine_name().word(), changes.join(" ")));
         let scene = self.load(scene, changes)?;
-        let engine: Box<dyn Engine> = match &self.gpu {
-            None => Box::new(ReferenceEngine::new(&scene)?),
-            Some(gpu) => Box::new(KernelEngine::new(&scene, gpu, false)?),
-        };
+        let engine = engine::open(&scene, self.gpu.as_ref(), false)?;
         self.run_on(scene, engine)
     }
 
@@ -200,7 +179,7 @@ impl Bench {
 impl Finished {
     /// The rows of one of its records.
     pub fn record(&self, name: &str) -> Result<Table, CaseError> {
-        Table::read(&self.folder.join(format!("{name}.csv")))
+        Ok(Table::read(&self.folder.join(format!("{name}.csv")))?)
     }
 }
 

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use psmrt_report::{Axis, Figure, Series};
 
 use super::found::found;
-use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::table::Table;
 
 /// A settling cloud.
 pub const CASE: Case = Case {
@@ -59,7 +60,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     let (run, _) = bench.run("cloud_settling/scene.toml", &changes)?;
     let loads = run.record("loads")?;
     let [.., before, last] = &loads.values("step")?[..] else {
-        return Err(CaseError::Table("the cloud needs two records".to_owned()));
+        return Err(CaseError::table("the cloud needs two records".to_owned()));
     };
     let before = loads.with(&[("step", before)])?.numbers("velocity_z (m/s)")?;
     let loads = loads.with(&[("step", last)])?;
@@ -166,7 +167,7 @@ const CORE: f64 = 5.0;
 /// What is claimed of the 975 grains.
 fn full_claims(full: &Table) -> Result<Vec<Claim>, CaseError> {
     let velocities = full.numbers("velocity_m_s")?;
-    let missing = || CaseError::Table("full.csv has too few layers".to_owned());
+    let missing = || CaseError::table("full.csv has too few layers".to_owned());
     let [wall, .., inner, innermost] = velocities[..] else { return Err(missing()) };
     let layers = full.numbers("layer_from_diameters")?.into_iter().zip(full.numbers("grains")?);
     let core = layers.zip(&velocities).filter(|((from, _), _)| *from >= CORE);

@@ -2,7 +2,8 @@
 
 use psmrt_report::{Axis, Figure, Series};
 
-use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::table::Table;
 
 /// The judge of other people's kernels.
 pub const CASE: Case = Case {

@@ -2,7 +2,8 @@
 
 use psmrt_report::{Axis, Figure, Series, Style};
 
-use super::{Case, CaseError, Claim, Golden, Table};
+use super::{Case, CaseError, Claim, Golden};
+use crate::table::{Table, TableError};
 
 /// What each model costs.
 pub const CASE: Case = Case {
@@ -64,7 +65,7 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
         for (engine, words) in engines {
             let value =
                 |model: &String| rows.with(&[("engine", engine), ("model", model)])?.number(column);
-            let values: Vec<f64> = models.iter().map(value).collect::<Result<_, CaseError>>()?;
+            let values: Vec<f64> = models.iter().map(value).collect::<Result<_, TableError>>()?;
             let points = values.into_iter().zip((1..).map(f64::from));
             let points = points.collect();
             figure = figure.with(Series::points(words, points));

@@ -4,7 +4,9 @@ use psmrt_report::{Axis, Figure, PowerLaw};
 
 use super::bench::collision_changes;
 use super::found::found;
-use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::engine::EngineName;
+use crate::table::Table;
 
 /// Flow in a square duct.
 pub const CASE: Case = Case {
@@ -84,7 +86,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
                       finer grids come within 0.06)",
             });
             let [.., coarse, fine] = errors[..] else {
-                return Err(CaseError::Table("the duct needs two grids".to_owned()));
+                return Err(CaseError::table("the duct needs two grids".to_owned()));
             };
             let ratio = (fine.0 / coarse.0).powi(2);
             claims.push(Claim {

@@ -3,7 +3,7 @@
 
 use psmrt_report::{Marker, Series, Style};
 
-use super::EngineName;
+use crate::engine::EngineName;
 
 /// The palette's black.
 const BLACK: usize = 6;

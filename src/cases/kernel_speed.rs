@@ -2,7 +2,8 @@
 
 use psmrt_report::{Axis, Figure, Series};
 
-use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::table::Table;
 
 /// The kernel's speed.
 pub const CASE: Case = Case {

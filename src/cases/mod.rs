@@ -34,7 +34,6 @@ mod stokes_settling;
 mod stream;
 mod study;
 mod suspension;
-mod table;
 mod ten_cate;
 mod ten_cate_figures;
 mod ten_cate_study;
@@ -47,25 +46,24 @@ use std::io;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
-use psmrt_reference::coupling::CouplingError;
 use psmrt_report::Figure;
 use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
-use crate::engine::{EngineStop, StartError};
+use crate::engine::{EngineStop, OpenError};
 use crate::kernel::KernelError;
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::SceneError;
+use crate::table::{Table, TableError};
 
 pub use bed_laws::{BED_LAWS, BedLaw};
-pub use bench::{Bench, EngineName, Finished, WatcherOf};
+pub use bench::{Bench, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use packed_bed::{Bed, Packing};
 pub use steadiness::{Settled, steadiness};
 pub use stream::Stream;
 pub use study::Study;
-pub use table::Table;
 
 /// A case of the acceptance suite.
 pub struct Case {
@@ -156,12 +154,19 @@ impl Golden {
     /// A table of it. Errors if it cannot be read.
     pub fn table(&self, file: &str) -> Result<Table, CaseError> {
         self.read.borrow_mut().insert(file.to_owned());
-        Table::read(&self.path(file))
+        Ok(Table::read(&self.path(file))?)
     }
 
     /// The tables that were read so far: what claims and figures rest on besides measured rows.
     pub fn tables_read(&self) -> BTreeSet<String> {
         self.read.borrow().clone()
+    }
+}
+
+impl CaseError {
+    /// Something that a case needs is not there, in words.
+    pub fn table(problem: impl Into<String>) -> Self {
+        CaseError::Table(TableError(problem.into()))
     }
 }
 
@@ -171,12 +176,9 @@ pub enum CaseError {
     /// A scene is wrong.
     #[error(transparent)]
     Scene(#[from] Box<SceneError>),
-    /// The oracle cannot take a scene.
+    /// An engine cannot take a scene.
     #[error(transparent)]
-    Oracle(#[from] CouplingError),
-    /// The kernel cannot take a scene.
-    #[error(transparent)]
-    Start(#[from] StartError),
+    Open(#[from] OpenError),
     /// The device cannot be had.
     #[error(transparent)]
     Device(#[from] KernelError),
@@ -209,9 +211,9 @@ pub enum CaseError {
     /// A case asks for a steady state of a scene that has no criterion for one.
     #[error("{0} has no `stop.steady`: add that section, with `record`, `column` and `tolerance`")]
     NoCriterion(String),
-    /// A table lacks something.
-    #[error("{0}")]
-    Table(String),
+    /// A table cannot be read or lacks something.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// The user has stopped it.
     #[error(
         "interrupted; at the full scale the state is saved, and the same command goes on from it"

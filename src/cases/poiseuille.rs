@@ -3,10 +3,12 @@
 use psmrt_report::{Figure, PowerLaw};
 
 use super::bench::collision_changes;
-use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table, poiseuille_figures};
+use super::{Bench, Case, CaseError, Claim, Golden, poiseuille_figures};
+use crate::engine::EngineName;
 use crate::exact::Comparison;
 use crate::output::records::profile_rows;
 use crate::scene::check::records::middle;
+use crate::table::Table;
 
 /// Plane Poiseuille flow.
 pub const CASE: Case = Case {
@@ -106,7 +108,7 @@ fn row(
     all.extend_from_slice(changes);
     let run = bench.steady(&format!("poiseuille/{scene}"), &all)?;
     let Some(exact) = &run.scene.exact else {
-        return Err(CaseError::Table(format!("{scene} has no exact solution")));
+        return Err(CaseError::table(format!("{scene} has no exact solution")));
     };
     let middle = middle(&run.scene.setup.domain);
     let profile = profile_rows(&run.scene, run.engine.as_ref(), exact.across, middle);

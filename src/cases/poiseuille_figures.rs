@@ -2,9 +2,11 @@
 
 use psmrt_report::{Axis, Figure, PowerLaw, Series};
 
+use super::CaseError;
 use super::found::found;
 use super::poiseuille::{WALLS, by_grid, by_tau};
-use super::{CaseError, EngineName, Table};
+use crate::engine::EngineName;
+use crate::table::Table;
 
 /// All of them; `walls` says where walls are known to stand.
 pub fn all(walls: &Table, rows: &Table) -> Result<Vec<Figure>, CaseError> {

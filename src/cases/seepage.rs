@@ -4,9 +4,10 @@ use psmrt_report::Figure;
 
 use super::packed_bed::FCC_FRACTION;
 use super::{
-    BED_LAWS, Bed, Bench, Case, CaseError, Claim, Golden, Packing, Table, seepage_figures,
-    seepage_inlet, seepage_study,
+    BED_LAWS, Bed, Bench, Case, CaseError, Claim, Golden, Packing, seepage_figures, seepage_inlet,
+    seepage_study,
 };
+use crate::table::Table;
 
 /// A packed bed.
 pub const CASE: Case = Case {

@@ -5,7 +5,8 @@ use psmrt_report::{Axis, Figure, Marker, Series, Style};
 use super::found::found;
 use super::seepage::over_law;
 use super::seepage_study::{grids, largest_stable, steady, taus};
-use super::{BED_LAWS, CaseError, Table, seepage_inlet};
+use super::{BED_LAWS, CaseError, seepage_inlet};
+use crate::table::Table;
 
 /// Solid fraction at which the laws are drawn.
 const FRACTION: f64 = 0.6;

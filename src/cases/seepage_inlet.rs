@@ -1,6 +1,7 @@
 //! A bed under a velocity inlet with free outflow, the paper's drive: how fast the water can enter.
 
-use super::{BED_LAWS, CaseError, Claim, Table};
+use super::{BED_LAWS, CaseError, Claim};
+use crate::table::Table;
 
 /// Height of the bed of `inlet.toml`, cells, and of the paper's; diameters, cells.
 pub const SMALL: (f64, f64) = (31.0, 8.0);
@@ -48,7 +49,7 @@ pub fn limits(inlet: &Table, engine: &str, collision: &str) -> Result<Vec<(f64, 
 pub fn claims(inlet: &Table, paper: &Table) -> Result<Vec<Claim>, CaseError> {
     let ratios = paper.numbers("over_Beetstra")?;
     let &[.., before, last] = &ratios[..] else {
-        return Err(CaseError::Table("paper.csv has too few rows".to_owned()));
+        return Err(CaseError::table("paper.csv has too few rows".to_owned()));
     };
     let mut claims = vec![
         Claim {

@@ -3,18 +3,19 @@
 use super::seepage::{over, over_law};
 use super::sphere_drag_study::without_grid;
 use super::twins::{twins_claim, without_twins};
-use super::{BED_LAWS, Bed, CaseError, Claim, Table, steadiness};
+use super::{BED_LAWS, Bed, CaseError, Claim, steadiness};
+use crate::table::Table;
 
 /// What tells a run from all others.
 const RUN: &[&str] = Bed::COLUMNS.split_at(9).0;
 
 /// The rows with Noble and Torczynski's weight that became steady; the oracle's where both engines made one.
 pub fn steady(study: &Table, collision: &str) -> Result<Table, CaseError> {
-    without_twins(study, RUN).with(&[
+    Ok(without_twins(study, RUN).with(&[
         ("outcome", "steady"),
         ("collision", collision),
         ("weighting", "noble_torczynski"),
-    ])
+    ])?)
 }
 
 /// psi Re against cells per diameter at low Re, MRT.

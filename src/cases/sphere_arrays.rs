@@ -9,7 +9,9 @@ use psmrt_report::{Axis, Figure, PowerLaw, Series};
 use super::bench::Finished;
 use super::found::found;
 use super::sphere_drag_study::without_grid;
-use super::{Bench, Case, CaseError, Claim, EngineName, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::engine::EngineName;
+use crate::table::Table;
 
 /// Regular arrays of spheres.
 pub const CASE: Case = Case {
@@ -97,7 +99,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
 fn drag(run: &Finished) -> Result<(f64, f64), CaseError> {
     let solids = run.engine.solids();
     let Some(Shape::Sphere { radius }) = solids.first().map(|solid| solid.shape.clone()) else {
-        return Err(CaseError::Table("the scene has no spheres".to_owned()));
+        return Err(CaseError::table("the scene has no spheres".to_owned()));
     };
     let setup = &run.scene.setup;
     let force = setup.body_force.map_or(0.0, |g| g.x);

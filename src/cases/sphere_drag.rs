@@ -2,8 +2,9 @@
 
 use psmrt_report::{Figure, PowerLaw};
 
-use super::{Bench, Case, CaseError, Claim, Golden, Stream, Table};
+use super::{Bench, Case, CaseError, Claim, Golden, Stream};
 use super::{sphere_drag_figures, sphere_drag_study};
+use crate::table::Table;
 
 /// A sphere in a stream.
 pub const CASE: Case = Case {
@@ -92,7 +93,7 @@ impl Known {
 
     /// C_D in open water.
     pub fn open(&self, reynolds: &str) -> Result<f64, CaseError> {
-        self.open.with(&[("Re", reynolds)])?.number("CD_computed")
+        Ok(self.open.with(&[("Re", reynolds)])?.number("CD_computed")?)
     }
 }
 

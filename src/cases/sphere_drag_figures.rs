@@ -2,10 +2,11 @@
 
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
+use super::CaseError;
 use super::found::found;
 use super::sphere_drag::Known;
 use super::sphere_drag_study::{self, Blockage, VARIED, Varied};
-use super::{CaseError, Table};
+use crate::table::Table;
 
 /// All of them: `rows` of the quick form, and those of the study.
 pub fn all(known: &Known, rows: &Table, study: &Table) -> Result<Vec<Figure>, CaseError> {

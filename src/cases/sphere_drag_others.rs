@@ -3,7 +3,8 @@
 use psmrt_report::PowerLaw;
 
 use super::sphere_drag_study::{Blockage, TAUS, VARIED, Varied, grids, steady, without_grid};
-use super::{CaseError, Claim, Table};
+use super::{CaseError, Claim};
+use crate::table::Table;
 
 /// Those whose box was not varied.
 const UNVARIED: [&str; 3] = ["30", "50", "150"];
@@ -24,7 +25,7 @@ struct Neighbours {
 
 impl Neighbours {
     fn of(study: &Table, open: impl Fn(&str) -> Result<f64, CaseError>) -> Result<Self, CaseError> {
-        let missing = || CaseError::Table("study.csv lacks the boxes of Re 10 or 100".to_owned());
+        let missing = || CaseError::table("study.csv lacks the boxes of Re 10 or 100".to_owned());
         let varied = |reynolds: &str| -> Result<(&Varied, Blockage), CaseError> {
             let varied = VARIED.iter().find(|v| v.reynolds == reynolds).ok_or_else(missing)?;
             Ok((varied, Blockage::of(&varied.widths(study)?).ok_or_else(missing)?))
@@ -60,7 +61,7 @@ pub fn claims(
     let neighbours = Neighbours::of(study, &open)?;
     let mut claims = Vec::new();
     for reynolds in UNVARIED {
-        let missing = || CaseError::Table(format!("study.csv lacks grids of Re {reynolds}"));
+        let missing = || CaseError::table(format!("study.csv lacks grids of Re {reynolds}"));
         let re: f64 = reynolds.parse().unwrap_or(f64::NAN);
         let grids = grids(study, reynolds, tau_of(reynolds))?;
         let found = without_grid(&grids).ok_or_else(missing)?;

@@ -2,7 +2,8 @@
 
 use super::sphere_drag_others as others;
 use super::twins::{twins_claim, without_twins};
-use super::{CaseError, Claim, Stream, Table, steadiness};
+use super::{CaseError, Claim, Stream, steadiness};
+use crate::table::Table;
 
 /// What tells a run from all others.
 const RUN: &[&str] = Stream::COLUMNS.split_at(6).0;
@@ -85,7 +86,7 @@ pub const VARIED: [Varied; 4] = [
 
 /// The rows of runs that became steady, with d'Humieres' rates; the oracle's where both engines made one.
 pub fn steady(study: &Table) -> Result<Table, CaseError> {
-    without_twins(study, RUN).with(&[("outcome", "steady"), ("collision", "mrt")])
+    Ok(without_twins(study, RUN).with(&[("outcome", "steady"), ("collision", "mrt")])?)
 }
 
 /// Each Reynolds number's relaxation time on all grids.
@@ -217,7 +218,7 @@ pub fn claims(
     duct: f64,
     open: impl Fn(&str) -> Result<f64, CaseError>,
 ) -> Result<Vec<Claim>, CaseError> {
-    let missing = |what: &str| CaseError::Table(format!("study.csv lacks {what}"));
+    let missing = |what: &str| CaseError::table(format!("study.csv lacks {what}"));
     let mut claims = vec![twins_claim(study, RUN, "CD")?, steadiness::of_study(study)?];
     for varied in VARIED {
         let reynolds = varied.reynolds;

@@ -2,8 +2,9 @@
 //! `psmrt stability`.
 
 use super::stability_figures::draw;
-use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
 use crate::stability::limits::{Frontier, frontiers};
+use crate::table::Table;
 
 /// Stability at the extremes.
 pub const CASE: Case = Case {

@@ -1,8 +1,9 @@
 //! How steady a run was when it was taken for steady, by its own record: part of every verdict.
 
 use super::bench::Finished;
-use super::{CaseError, Claim, Table};
+use super::{CaseError, Claim};
 use crate::run::steady::History;
+use crate::table::Table;
 
 /// A run that its criterion has ended, and what the last rows of its record say.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +25,7 @@ impl Settled {
     pub(super) fn of(run: String, finished: &Finished) -> Result<Self, CaseError> {
         let scene = &finished.scene;
         let Some(steady) = &scene.stop.steady else {
-            return Err(CaseError::Table(format!("{run}: the scene has no `stop.steady`")));
+            return Err(CaseError::table(format!("{run}: the scene has no `stop.steady`")));
         };
         let values = values(
             &finished.record(&scene.records[steady.record].name)?,
@@ -32,7 +33,7 @@ impl Settled {
         )?;
         let (&[.., last, now], Some(left)) = (values.as_slice(), History::of(&values).left())
         else {
-            return Err(CaseError::Table(format!("{run}: too few rows to be steady")));
+            return Err(CaseError::table(format!("{run}: too few rows to be steady")));
         };
         let change = ((now - last) / now).abs();
         let (steps, tolerance) = (finished.engine.steps(), steady.tolerance);
@@ -43,7 +44,7 @@ impl Settled {
 /// The values of a column, time by time, summed over the rows (grains) of each.
 fn values(rows: &Table, column: &str) -> Result<Vec<f64>, CaseError> {
     let heading = rows.columns.iter().find(|name| name.split(' ').next() == Some(column));
-    let heading = heading.ok_or_else(|| CaseError::Table(format!("no column {column:?}")))?;
+    let heading = heading.ok_or_else(|| CaseError::table(format!("no column {column:?}")))?;
     let mut sums: Vec<(f64, f64)> = Vec::new();
     for (step, value) in rows.points("step", heading)? {
         match sums.last_mut() {

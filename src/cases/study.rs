@@ -45,7 +45,7 @@ impl Study {
 #[cfg(test)]
 mod tests {
     use super::Study;
-    use crate::cases::Table;
+    use crate::table::Table;
 
     #[test]
     fn rows_that_are_added_stand_under_the_program_that_made_them() {

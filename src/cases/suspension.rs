@@ -3,7 +3,8 @@
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::found::found;
-use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::table::Table;
 
 /// Hindered settling.
 pub const CASE: Case = Case {

@@ -2,9 +2,8 @@
 
 use psmrt_report::Figure;
 
-use super::{
-    Bench, Case, CaseError, Claim, Golden, Table, ten_cate_figures, ten_cate_study as study,
-};
+use super::{Bench, Case, CaseError, Claim, Golden, ten_cate_figures, ten_cate_study as study};
+use crate::table::Table;
 
 /// Ten Cate's settling sphere.
 pub const CASE: Case = Case {

@@ -5,7 +5,8 @@ use psmrt_report::{Axis, Figure, Marker, Series, Style};
 use super::found::found;
 use super::ten_cate::{EXPERIMENTS, OWN, differences, measured};
 use super::ten_cate_study::{WITHOUT_ORDER, order_and_limit};
-use super::{CaseError, Golden, Table};
+use super::{CaseError, Golden};
+use crate::table::Table;
 
 /// What the digitising is worth: of the largest velocity, and in diameters.
 const VELOCITY_ERROR: f64 = 0.02;

@@ -4,7 +4,8 @@ use std::ops::RangeInclusive;
 
 use super::sphere_drag_study::without_grid;
 use super::ten_cate::EXPERIMENTS;
-use super::{CaseError, Claim, Table};
+use super::{CaseError, Claim};
+use crate::table::Table;
 
 /// Why velocities may differ by so much on the way down.
 pub const VELOCITY: &str =

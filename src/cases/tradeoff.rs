@@ -2,7 +2,8 @@
 
 use psmrt_report::{Figure, PowerLaw};
 
-use super::{Bench, Case, CaseError, Claim, Golden, Table};
+use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::table::Table;
 use crate::tradeoff::effects::effects;
 use crate::tradeoff::evidence::{SolidKnob, grain_points, wall_points};
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
@@ -53,11 +54,11 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
 }
 
 fn sweep(golden: &Golden) -> Result<Vec<Row>, CaseError> {
-    Row::of_table(&golden.table("sweep.csv")?)
+    Ok(Row::of_table(&golden.table("sweep.csv")?)?)
 }
 
 fn checked(golden: &Golden, models: &Models) -> Result<Vec<Trial>, CaseError> {
-    trials(models, &Row::of_table(&golden.table("held_back_results.csv")?)?)
+    Ok(trials(models, &Row::of_table(&golden.table("held_back_results.csv")?)?)?)
 }
 
 fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {

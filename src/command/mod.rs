@@ -28,13 +28,14 @@ use thiserror::Error;
 use crate::cases::CaseError;
 use crate::checkpoint::CheckpointError;
 use crate::conformance::files::FilesError;
-use crate::engine::{Engine, KernelEngine, ReferenceEngine, StartError};
+use crate::engine::{self, Engine, OpenError, StartError};
 use crate::estimate::memory;
 use crate::kernel::{Gpu, KernelError, adapters};
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
 use crate::stability::LabError;
+use crate::table::TableError;
 use say::tell;
 
 /// A command that failed.
@@ -66,6 +67,9 @@ pub enum CommandError {
         /// The offer of the older one; empty if there is none.
         older: String,
     },
+    /// A table that a command rests on cannot be used.
+    #[error(transparent)]
+    Csv(#[from] TableError),
     /// A case cannot be measured.
     #[error(transparent)]
     Case(#[from] CaseError),
@@ -144,6 +148,7 @@ impl CommandError {
             CommandError::Run(_)
             | CommandError::Write { .. }
             | CommandError::CandidateFailed
+            | CommandError::Csv(_)
             | CommandError::Case(_)
             | CommandError::Stability(_)
             | CommandError::ClaimsFail
@@ -170,13 +175,12 @@ fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>,
         if let Some((problem, remedy)) = memory::shortage(scene) {
             return Err(SceneError::whole_file(&name, problem, remedy).into());
         }
-        let engine = ReferenceEngine::new(scene).map_err(|error| refused(error.to_string()))?;
-        return Ok(Box::new(engine));
+        return engine::open(scene, None, profiled).map_err(|error| refused(error.to_string()));
     }
     let gpu = Gpu::open(scene.adapter.as_deref())?;
-    match KernelEngine::new(scene, &gpu, profiled) {
-        Ok(engine) => Ok(Box::new(engine)),
-        Err(StartError::Device(error)) => Err(error.into()),
+    match engine::open(scene, Some(&gpu), profiled) {
+        Ok(engine) => Ok(engine),
+        Err(OpenError::Kernel(StartError::Device(error))) => Err(error.into()),
         Err(error) => Err(refused(error.to_string())),
     }
 }

@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 use super::plan_text::{print, to_json, words};
 use super::say::say;
 use super::{CommandError, engine, engine_changes};
-use crate::cases::CaseError;
 use crate::engine::Engine;
 use crate::estimate::calibrate;
 use crate::kernel::adapters;
@@ -20,6 +19,7 @@ use crate::plan::predict::{Outside, percent};
 use crate::plan::write::text;
 use crate::quote;
 use crate::scene::{EngineKind, Scene};
+use crate::table::TableError;
 use crate::tradeoff::cost::mrt_over_srt;
 use crate::tradeoff::knobs::CollisionKnob;
 use crate::tradeoff::model::{LEAST_ERROR, Models};
@@ -219,7 +219,7 @@ fn alternatives<'a>(all: &'a [Way], best: &Way, wanted: f64) -> Vec<(String, Opt
 }
 
 /// What a plan rests on, a line each.
-fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, CaseError> {
+fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, TableError> {
     match &facts.limit {
         Limit::Grains { drag, because, .. } => {
             let mut lines = vec![format!(

@@ -19,12 +19,12 @@ use super::progress::Progress;
 use super::report_files::{self, command, copies, measured};
 use super::say::{say, tell};
 use super::{CommandError, write};
-use crate::cases::{
-    Bench, CASES, Case, CaseError, Claim, EngineName, Golden, Settled, Table, steadiness,
-};
+use crate::cases::{Bench, CASES, Case, CaseError, Claim, Golden, Settled, steadiness};
+use crate::engine::EngineName;
 use crate::kernel::Gpu;
 use crate::output::atomic;
 use crate::provenance;
+use crate::table::Table;
 
 /// What `psmrt report` is asked for.
 #[derive(Args, Clone, Debug)]

@@ -10,9 +10,10 @@ use psmrt_report::{Figure, Link, write_svg};
 
 use super::report::ReportRequest;
 use super::{CommandError, write};
-use crate::cases::{Case, CaseError, Table};
+use crate::cases::{Case, CaseError};
 use crate::output::atomic;
 use crate::provenance;
+use crate::table::Table;
 
 /// Where the copies are, from the page.
 const COPIES: &str = "data";

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::CommandError;
 use super::say::say;
-use crate::cases::EngineName;
+use crate::engine::EngineName;
 use crate::kernel::Gpu;
 use crate::stability::record::Record;
 use crate::stability::{FLOWS, Flow, Lab, map};

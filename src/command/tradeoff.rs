@@ -10,9 +10,10 @@ use serde_json::json;
 
 use super::say::{say, tell};
 use super::{CommandError, write};
-use crate::cases::{CaseError, Table};
+use crate::cases::CaseError;
 use crate::kernel::Gpu;
 use crate::output::atomic;
+use crate::table::Table;
 use crate::tradeoff::evidence::{grain_points, wall_points};
 use crate::tradeoff::knobs::{Flow, Knobs};
 use crate::tradeoff::measure::Runner;

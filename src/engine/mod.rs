@@ -3,6 +3,7 @@
 
 mod bytes;
 pub mod free_state;
+mod name;
 mod reference;
 mod wgpu;
 
@@ -16,6 +17,7 @@ use thiserror::Error;
 
 use crate::kernel::KernelError;
 
+pub use name::{EngineName, OpenError, open};
 pub use reference::ReferenceEngine;
 pub use wgpu::{KernelEngine, Profile, StartError};
 

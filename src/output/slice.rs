@@ -5,8 +5,9 @@ use psmrt_report::{Axis, Map};
 
 use super::between;
 use crate::engine::{CellState, Engine};
+use crate::scene::Scene;
 use crate::scene::format_run::Quantity;
-use crate::scene::{Scene, Units};
+use crate::units::Units;
 
 /// Cells that grains cover by more than this are grey.
 const MOSTLY_SOLID: f64 = 0.5;

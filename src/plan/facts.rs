@@ -11,7 +11,6 @@ use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::solids::Solid;
 
 use super::duct::Duct;
-use crate::cases::{CaseError, Table};
 use crate::estimate::bed::{Bed, bed};
 use crate::estimate::grains::free;
 use crate::estimate::si_velocity;
@@ -19,6 +18,7 @@ use crate::estimate::spheres::{solid_fraction, spheres};
 use crate::estimate::warnings::stability::mapped;
 use crate::scene::Scene;
 use crate::stability::limits::Measured;
+use crate::table::{Table, TableError};
 use crate::tradeoff::evidence::SolidKnob;
 
 const ARRAYS: &str = include_str!("../../golden/sphere_arrays/literature.csv");
@@ -93,7 +93,7 @@ pub struct Facts {
 
 impl Facts {
     /// The facts of a scene; if nothing in it limits the accuracy in a known way, why not.
-    pub fn of(scene: &Scene) -> Result<Result<Self, String>, CaseError> {
+    pub fn of(scene: &Scene) -> Result<Result<Self, String>, TableError> {
         let setup = &scene.setup;
         let cells = setup.domain.cells();
         let units = &scene.units;
@@ -217,7 +217,7 @@ pub(crate) fn lightest(scene: &Scene) -> Option<(f64, InternalFluid)> {
 
 /// Drag over Stokes' drag: that of a face-centred array as crowded, or of a shaft as narrow, whichever is
 /// larger; and what it was taken from.
-fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), CaseError> {
+fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), TableError> {
     let domain = &scene.setup.domain;
     let whole = solid_fraction(scene);
     let bed = bed(scene);
@@ -265,7 +265,7 @@ fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), 
 
 /// A column of the literature at a value of another: linear in the logarithm between rows, from 1 at
 /// nothing up, and the last row's beyond.
-fn interpolated(table: &Table, [x, y]: [&str; 2], at: f64) -> Result<f64, CaseError> {
+fn interpolated(table: &Table, [x, y]: [&str; 2], at: f64) -> Result<f64, TableError> {
     let mut before = (0.0, 1.0_f64);
     for (x, y) in table.points(x, y)? {
         if at <= x {

@@ -25,7 +25,6 @@ mod shape;
 mod source;
 mod synonyms;
 pub mod trouble;
-pub mod units;
 
 use std::path::Path;
 
@@ -40,9 +39,9 @@ pub use check::records::{Record, Rhythm, What};
 pub use check::stop::{Steady, Stop};
 pub use format_run::EngineKind;
 pub use trouble::{SceneError, Trouble};
-pub use units::Units;
 
 use crate::exact::PlanePoiseuille;
+use crate::units::Units;
 use crate::{input, quote};
 use source::Source;
 

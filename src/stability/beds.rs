@@ -14,8 +14,8 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Model, Search};
-use crate::cases::EngineName;
 use crate::engine::Engine;
+use crate::engine::EngineName;
 
 /// Edge of the cubic cell of the array.
 const SIDE: usize = 16;

@@ -11,7 +11,7 @@ use psmrt_reference::setup::Setup;
 
 use super::start::populations;
 use super::{LabError, Line};
-use crate::cases::EngineName;
+use crate::engine::EngineName;
 use crate::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
 use crate::kernel::Gpu;
 use crate::scene::FreePart;

@@ -9,7 +9,7 @@ use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::rates::Rates;
 
 use super::{Model, Outcome};
-use crate::cases::{CaseError, Table};
+use crate::table::{Table, TableError};
 
 /// The maps that the warnings rest on, as they are committed.
 const SHEAR_LAYER: &str = include_str!("../../golden/stability/shear_layer.csv");
@@ -37,10 +37,10 @@ pub struct Frontier {
 }
 
 /// The frontiers of a map. Errors if it is none.
-pub fn frontiers(map: &Table) -> Result<Vec<Frontier>, CaseError> {
+pub fn frontiers(map: &Table) -> Result<Vec<Frontier>, TableError> {
     let number = |name: &str| {
         let found = map.columns.iter().position(|column| column == name);
-        found.ok_or_else(|| CaseError::Table(format!("a map of stability has no column {name:?}")))
+        found.ok_or_else(|| TableError(format!("a map of stability has no column {name:?}")))
     };
     let line: Vec<usize> = LINE.into_iter().map(number).collect::<Result<_, _>>()?;
     let [value, outcome, reynolds] = [number("value")?, number("outcome")?, number("reynolds")?];
@@ -52,7 +52,7 @@ pub fn frontiers(map: &Table) -> Result<Vec<Frontier>, CaseError> {
         }
     }
     let real = |text: &str| {
-        let wrong = || CaseError::Table(format!("a map of stability holds {text:?}"));
+        let wrong = || TableError(format!("a map of stability holds {text:?}"));
         text.parse::<f64>().map_err(|_| wrong())
     };
     keys.into_iter()
@@ -61,17 +61,17 @@ pub fn frontiers(map: &Table) -> Result<Vec<Frontier>, CaseError> {
             let mut runs = rows
                 .map(|row| {
                     let word = &row[outcome];
-                    let wrong = || CaseError::Table(format!("no outcome is called {word:?}"));
+                    let wrong = || TableError(format!("no outcome is called {word:?}"));
                     let outcome = Outcome::of(word).ok_or_else(wrong)?;
                     Ok((real(&row[value])?, outcome, row[reynolds].parse().ok()))
                 })
-                .collect::<Result<Vec<(f64, Outcome, Option<f64>)>, CaseError>>()?;
+                .collect::<Result<Vec<(f64, Outcome, Option<f64>)>, TableError>>()?;
             runs.sort_by(|a, b| a.0.total_cmp(&b.0));
             let alive = || runs.iter().take_while(|run| run.1.lived());
             let sound = || alive().take_while(|run| run.1 != Outcome::Wrong);
             let tau = real(&line[4])?;
             let [engine, collision, weight, variant, _] = <[String; 5]>::try_from(line)
-                .map_err(|_| CaseError::Table("a line has five keys".to_owned()))?;
+                .map_err(|_| TableError("a line has five keys".to_owned()))?;
             Ok(Frontier {
                 line: [engine, collision, weight, variant],
                 tau,

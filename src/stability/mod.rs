@@ -30,7 +30,7 @@ use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::rates::{RateError, Rates};
 use thiserror::Error;
 
-use crate::cases::EngineName;
+use crate::engine::EngineName;
 use crate::engine::{EngineStop, StartError};
 use psmrt_reference::coupling::CouplingError;
 

@@ -24,8 +24,8 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Model, Search};
-use crate::cases::EngineName;
 use crate::engine::Engine;
+use crate::engine::EngineName;
 use crate::scene::FreePart;
 
 const SIDE: usize = 12;

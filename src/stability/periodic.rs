@@ -18,8 +18,8 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use super::lab::{Lab, go_on};
 use super::spectral::vorticity;
 use super::{Flow, Found, LabError, Line, Model, Search};
-use crate::cases::EngineName;
 use crate::engine::Engine;
+use crate::engine::EngineName;
 
 /// Largest velocities at the start, cells per step.
 const SPEEDS: &[f64] = &[0.003, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.5];

@@ -2,7 +2,7 @@
 
 use super::record::Record;
 use super::{Flow, Found, Lab, LabError, Outcome, Search};
-use crate::cases::EngineName;
+use crate::engine::EngineName;
 
 /// Maps a flow on an engine: makes the runs that its record lacks. `tell` is told of each.
 pub fn map(

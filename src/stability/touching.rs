@@ -15,7 +15,7 @@ use psmrt_reference::solids::Solid;
 use super::lab::{Lab, go_on};
 use super::movers::with_grains;
 use super::{Flow, Found, LabError, Line, Model, Search};
-use crate::cases::EngineName;
+use crate::engine::EngineName;
 use crate::scene::FreePart;
 
 const RADIUS: f64 = 3.0;

@@ -7,9 +7,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::knobs::{CollisionKnob, Flow, Knobs};
-use crate::cases::{Bench, CaseError, Table};
-use crate::engine::{Engine, KernelEngine, ReferenceEngine};
+use crate::cases::{Bench, CaseError};
+use crate::engine::{self, Engine};
 use crate::kernel::Gpu;
+use crate::table::Table;
 
 /// The committed figures, part of the program.
 const COMMITTED: &str = include_str!("../../golden/tradeoff/cost.csv");
@@ -58,9 +59,9 @@ pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError
                 let words = [name, collision.word(), kind];
                 entries.push(Entry { words, engine, cells, best: f64::INFINITY });
             };
-            add("reference", Box::new(ReferenceEngine::new(&scene)?));
+            add("reference", engine::open(&scene, None, false)?);
             if let Some(gpu) = gpu {
-                add("wgpu", Box::new(KernelEngine::new(&scene, gpu, false)?));
+                add("wgpu", engine::open(&scene, Some(gpu), false)?);
             }
         }
     }

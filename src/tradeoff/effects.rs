@@ -2,7 +2,7 @@
 
 use super::knobs::{CollisionKnob, Flow, Knobs, Storage};
 use super::record::Row;
-use crate::cases::Table;
+use crate::table::Table;
 
 /// A knob, turned.
 #[derive(Clone, Debug, PartialEq)]

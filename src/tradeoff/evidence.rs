@@ -2,7 +2,7 @@
 
 use super::knobs::{CollisionKnob, Flow, Knobs, Storage};
 use super::record::Row;
-use crate::cases::{CaseError, Table};
+use crate::table::{Table, TableError};
 
 /// The committed rows, part of the program so that `psmrt plan` works anywhere.
 const SWEEP: &str = include_str!("../../golden/tradeoff/sweep.csv");
@@ -91,7 +91,7 @@ pub struct WallPoint {
 }
 
 /// The committed sweep.
-pub fn committed_sweep() -> Result<Vec<Row>, CaseError> {
+pub fn committed_sweep() -> Result<Vec<Row>, TableError> {
     Row::of_table(&Table::parse("golden/tradeoff/sweep.csv", SWEEP)?)
 }
 
@@ -131,14 +131,14 @@ pub fn wall_point(row: &Row) -> Option<WallPoint> {
 }
 
 /// The points with grains that models are fitted to.
-pub fn grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, CaseError> {
+pub fn grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, TableError> {
     let mut points = all_grain_points(sweep)?;
     points.retain(|point| point.tau >= LEAST_TAU);
     Ok(points)
 }
 
 /// The points with grains at all relaxation times.
-pub(super) fn all_grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, CaseError> {
+pub(super) fn all_grain_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, TableError> {
     let mut points: Vec<_> =
         sweep.iter().filter(|row| is_plain(row)).filter_map(grain_point).collect();
     points.retain(|point| {
@@ -167,7 +167,7 @@ pub fn wall_points(sweep: &[Row]) -> Vec<WallPoint> {
 }
 
 /// The plain rows of the study of arrays.
-fn study() -> Result<Vec<GrainPoint>, CaseError> {
+fn study() -> Result<Vec<GrainPoint>, TableError> {
     let table = Table::parse("golden/sphere_arrays/study.csv", STUDY)?;
     let plain = [("weight", "NT"), ("operator", "bounce_back"), ("shift", "quarter")];
     let table = table.with(&plain)?;
@@ -178,7 +178,7 @@ fn study() -> Result<Vec<GrainPoint>, CaseError> {
         let Ok(drag_error) = row.number("relative_error") else { continue };
         let word = row.values("collision")?.pop().unwrap_or_default();
         let collision = CollisionKnob::from_word(&word)
-            .ok_or_else(|| CaseError::Table(format!("collision {word:?} of study.csv")))?;
+            .ok_or_else(|| TableError(format!("collision {word:?} of study.csv")))?;
         let lattice = row.values("lattice")?.pop().unwrap_or_default();
         let fraction = row.values("solid_fraction")?.pop().unwrap_or_default();
         if row.number("Re")? > MOST_REYNOLDS {

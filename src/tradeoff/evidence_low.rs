@@ -4,7 +4,7 @@
 use super::evidence::{GrainPoint, LEAST_TAU, SolidKnob, all_grain_points};
 use super::knobs::CollisionKnob;
 use super::record::Row;
-use crate::cases::{CaseError, Table};
+use crate::table::{Table, TableError};
 
 const SEEPAGE: &str = include_str!("../../golden/seepage/study.csv");
 const FILE: &str = "golden/seepage/study.csv";
@@ -18,7 +18,7 @@ const ORDERED: &str = "seepage 0.6";
 const FINEST: [f64; 2] = [16.0, 0.51];
 
 /// The points, with d'Humieres' rates and the usual collision of solid cells.
-pub fn low_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, CaseError> {
+pub fn low_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, TableError> {
     let mut points = all_grain_points(sweep)?;
     points.extend(beds()?);
     points.retain(|point| {
@@ -73,7 +73,7 @@ impl Bed {
 
 /// The beds with Re up to 1. The drag of the ordered one is known; that of a random packing is taken from its
 /// finest grid, less the error of the ordered bed there (below 1 %).
-fn beds() -> Result<Vec<GrainPoint>, CaseError> {
+fn beds() -> Result<Vec<GrainPoint>, TableError> {
     let table = Table::parse(FILE, SEEPAGE)?;
     let table = table.with(&[("collision", "mrt"), ("weighting", "noble_torczynski")])?;
     let mut beds = Vec::new();
@@ -82,7 +82,7 @@ fn beds() -> Result<Vec<GrainPoint>, CaseError> {
         if row.number("Re_wanted")? > 1.0 {
             continue;
         }
-        let word = |name: &str| Ok::<_, CaseError>(row.values(name)?.pop().unwrap_or_default());
+        let word = |name: &str| Ok::<_, TableError>(row.values(name)?.pop().unwrap_or_default());
         let packing = word("packing")?;
         let packing =
             if packing == "fcc" { packing } else { format!("{packing}, seed {}", word("seed")?) };

@@ -7,7 +7,8 @@ use super::front::front;
 use super::knobs::{CollisionKnob, Flow, Storage};
 use super::record::Row;
 use super::trial::{Trial, score};
-use crate::cases::{CaseError, Table};
+use crate::cases::CaseError;
+use crate::table::Table;
 
 /// Errors below this are drawn at it: a log axis has no zero.
 const FLOOR: f64 = 1e-8;

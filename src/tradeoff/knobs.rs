@@ -1,6 +1,6 @@
 //! The knobs of one run, as the tables spell them.
 
-use crate::cases::CaseError;
+use crate::table::TableError;
 
 /// Names of the columns that a row of knobs has.
 pub const COLUMNS: [&str; 11] = [
@@ -269,10 +269,10 @@ impl Knobs {
     }
 
     /// The knobs of a row of [`COLUMNS`]. Errors if a value is none of the words or no number.
-    pub fn from_row(row: &[String]) -> Result<Self, CaseError> {
+    pub fn from_row(row: &[String]) -> Result<Self, TableError> {
         let wrong = |column: usize| {
             let (name, value) = (COLUMNS[column], row.get(column));
-            CaseError::Table(format!("column {name} of a row of knobs holds {value:?}"))
+            TableError(format!("column {name} of a row of knobs holds {value:?}"))
         };
         let text = |column: usize| row.get(column).cloned().ok_or_else(|| wrong(column));
         let number = |column: usize| text(column)?.parse().map_err(|_| wrong(column));

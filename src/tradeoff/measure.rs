@@ -57,7 +57,7 @@ impl Runner {
         let bench = match &mut self.kernel {
             Some(kernel) if on_kernel => kernel,
             None if on_kernel => {
-                return Err(CaseError::Table("there is no adapter for engine wgpu".to_owned()));
+                return Err(CaseError::table("there is no adapter for engine wgpu".to_owned()));
             }
             _ => &mut self.oracle,
         };
@@ -66,7 +66,7 @@ impl Runner {
         let ended = if emulated {
             let scene = bench.load(&scene, &changes)?;
             let engine = RoundedEngine::new(&scene, knobs.storage)
-                .map_err(|error| CaseError::Table(error.to_string()))?;
+                .map_err(|error| CaseError::table(error.to_string()))?;
             let engine: Box<dyn Engine> = Box::new(engine);
             bench.run_on(scene, engine)
         } else {
@@ -113,7 +113,7 @@ impl Runner {
 /// settling velocity; relative, signed but between plates.
 fn error(knobs: &Knobs, drag: f64, run: &Finished) -> Result<f64, CaseError> {
     let setup = &run.scene.setup;
-    let missing = |what: &str| CaseError::Table(format!("{}: {what}", knobs.flow.word()));
+    let missing = |what: &str| CaseError::table(format!("{}: {what}", knobs.flow.word()));
     match knobs.flow {
         Flow::Poiseuille => {
             let exact = run.scene.exact.as_ref().ok_or_else(|| missing("no exact solution"))?;

@@ -36,8 +36,8 @@ use super::fit::{Fit, least_squares, rms};
 use super::knobs::CollisionKnob;
 use super::model_eps::EpsModel;
 use super::model_low::LowModel;
-use crate::cases::CaseError;
 use crate::exact::magic_parameter;
+use crate::table::TableError;
 
 /// Below this the models say nothing: errors are then as large as what the place of a grain on the grid
 /// does (0.3 %), and may have either sign.
@@ -242,7 +242,7 @@ impl Models {
     }
 
     /// Fitted to all that is committed, once.
-    pub fn committed() -> Result<&'static Self, CaseError> {
+    pub fn committed() -> Result<&'static Self, TableError> {
         static MODELS: OnceLock<Models> = OnceLock::new();
         if let Some(models) = MODELS.get() {
             return Ok(models);

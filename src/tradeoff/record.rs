@@ -5,7 +5,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::knobs::{COLUMNS, Knobs};
-use crate::cases::{CaseError, Table};
+use crate::cases::CaseError;
+use crate::table::{Table, TableError};
 
 /// What a run gave.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,14 +70,14 @@ impl Row {
     }
 
     /// The rows of a table. Errors if one cannot be read.
-    pub fn of_table(table: &Table) -> Result<Vec<Self>, CaseError> {
+    pub fn of_table(table: &Table) -> Result<Vec<Self>, TableError> {
         let expected: Vec<&str> = COLUMNS.iter().chain(&RESULTS).copied().collect();
         if table.columns != expected {
             let problem = format!("its columns are {:?}, not {expected:?}", table.columns);
-            return Err(CaseError::Table(problem));
+            return Err(TableError(problem));
         }
         let wrong = |name: &str, value: &str| {
-            CaseError::Table(format!("column {name} of a sweep holds {value:?}"))
+            TableError(format!("column {name} of a sweep holds {value:?}"))
         };
         let row = |fields: &Vec<String>| {
             let result = |i: usize| fields[COLUMNS.len() + i].as_str();
@@ -122,7 +123,7 @@ impl Record {
         if whole.len() < text.len() {
             fs::write(path, whole)?;
         }
-        let named = |error: CaseError| CaseError::Table(format!("{}: {error}", path.display()));
+        let named = |error: TableError| TableError(format!("{}: {error}", path.display()));
         let table = Table::parse(&path.display().to_string(), whole)?;
         Ok(Record { path: path.to_owned(), rows: Row::of_table(&table).map_err(named)? })
     }

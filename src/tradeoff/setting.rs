@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use psmrt_reference::lattice::viscosity;
 
 use super::knobs::{Flow, Knobs, Storage};
-use crate::cases::{CaseError, Table};
+use crate::cases::CaseError;
+use crate::table::Table;
 
 /// Viscosity of all scenes, m2/s.
 const SI_VISCOSITY: f64 = 1e-6;
@@ -136,7 +137,7 @@ fn array(
 ) -> Result<(&'static str, Vec<String>), CaseError> {
     let (Some((lattice, count)), Some(d)) = (knobs.flow.lattice(), knobs.cells_per_diameter())
     else {
-        return Err(CaseError::Table(format!("{} is no array", knobs.flow.word())));
+        return Err(CaseError::table(format!("{} is no array", knobs.flow.word())));
     };
     let (n, nu, u) = (knobs.cells, viscosity(knobs.tau), knobs.lattice_velocity);
     let volume = f64::from(n).powi(3);
@@ -182,7 +183,7 @@ fn settling(knobs: &Knobs) -> Result<(&'static str, Vec<String>), CaseError> {
     let half = 0.5 * d / ratio;
     if (half - half.round()).abs() > 1e-9 {
         let problem = format!("a shaft of half width {half} cells is no whole number of them");
-        return Err(CaseError::Table(problem));
+        return Err(CaseError::table(problem));
     }
     let si_dx = SI_GRAIN / d;
     let si_velocity = knobs.lattice_velocity * si_dx / si_dt(knobs, si_dx);

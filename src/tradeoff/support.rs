@@ -6,7 +6,7 @@ use super::knobs::CollisionKnob;
 use super::model::{LEAST_ERROR, Models};
 use super::model_eps::EpsModel;
 use super::trial::{committed_results, score, trials};
-use crate::cases::CaseError;
+use crate::table::TableError;
 
 /// How many of the nearest runs are named.
 const NEAREST: usize = 3;
@@ -18,7 +18,7 @@ pub fn of_grains(
     cells: f64,
     tau: f64,
     drag: f64,
-) -> Result<Vec<String>, CaseError> {
+) -> Result<Vec<String>, TableError> {
     let Some(model) = models.of_grains(collision, solid) else {
         return Ok(vec![format!(
             "with B = epsilon two errors of opposite sign cancel here and not there: what was left out of the \

@@ -6,7 +6,7 @@ use super::knobs::{COLUMNS, CollisionKnob};
 use super::model::Models;
 use super::record::Row;
 use super::trial::Trial;
-use crate::cases::Table;
+use crate::table::Table;
 
 /// The models with their parameters, standard errors and bands.
 pub fn fits(models: &Models) -> Table {

@@ -7,7 +7,7 @@ use super::evidence::{grain_point, wall_point};
 use super::knobs::{CollisionKnob, Knobs};
 use super::model::{LEAST_ERROR, Models};
 use super::record::Row;
-use crate::cases::{CaseError, Table};
+use crate::table::{Table, TableError};
 
 const RESULTS: &str = include_str!("../../golden/tradeoff/held_back_results.csv");
 
@@ -50,12 +50,12 @@ pub fn score(trials: &[Trial]) -> [[usize; 2]; 2] {
 }
 
 /// The committed results of what was kept back.
-pub fn committed_results() -> Result<Vec<Row>, CaseError> {
+pub fn committed_results() -> Result<Vec<Row>, TableError> {
     Row::of_table(&Table::parse("golden/tradeoff/held_back_results.csv", RESULTS)?)
 }
 
 /// Each of these runs beside its prediction; runs without an error or without a model are left out.
-pub fn trials(models: &Models, results: &[Row]) -> Result<Vec<Trial>, CaseError> {
+pub fn trials(models: &Models, results: &[Row]) -> Result<Vec<Trial>, TableError> {
     let list = Table::parse("golden/tradeoff/held_back.csv", LIST)?;
     let list: Vec<Knobs> =
         list.rows.iter().map(|row| Knobs::from_row(row)).collect::<Result<_, _>>()?;

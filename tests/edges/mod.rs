@@ -12,7 +12,7 @@ use std::process::Output;
 
 pub use near::{assert_near, in_one_cell_and_too_hard, near_frontiers};
 
-use psmrt::cases::EngineName;
+use psmrt::engine::EngineName;
 use psmrt::scene::Scene;
 use psmrt::stability::{Lab, Line, Model};
 use psmrt_reference::domain::Faces;

@@ -1,6 +1,6 @@
 //! Runs on either side of the frontiers that `golden/stability` holds.
 
-use psmrt::cases::EngineName;
+use psmrt::engine::EngineName;
 use psmrt::stability::{FLOWS, Found, Lab, Line, Model, Outcome};
 use psmrt_reference::partial_saturation::Weighting;
 

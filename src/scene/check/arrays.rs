@@ -8,7 +8,7 @@ use super::Trouble;
 use super::grains::Ball;
 use super::numbers::{count, needed, positive};
 use crate::scene::format_grains::{GrainsSection, LatticeName};
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// Places in the unit cell, in edges: none lies on the cell's faces.
 fn sites(lattice: LatticeName) -> &'static [[f64; 3]] {

@@ -11,7 +11,7 @@ use super::Trouble;
 use super::effort::MOST_SUBSTEPS;
 use super::numbers::{absent, positive};
 use crate::scene::format_free::ContactSection;
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// Longest contact duration in time steps where a scene says nothing. The load of the fluid is held during a
 /// step and the inertia of the fluid inside comes a step late: in a contact of several steps the fluid takes

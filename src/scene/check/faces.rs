@@ -6,7 +6,7 @@ use psmrt_reference::lattice::{CS2, Vec3};
 use super::numbers::{absent, beyond, finite, needed, shorter_step};
 use super::{Trouble, velocity};
 use crate::scene::format::{FaceKind, FaceSection, FacesSection};
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// Keys of the faces, `KEYS[axis][side]`.
 const KEYS: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];

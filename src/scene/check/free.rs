@@ -17,7 +17,7 @@ use crate::scene::format_free::{
     ContactSection, GravityForm, GravitySection, InternalFluidName, LubricationSection,
 };
 use crate::scene::format_grains::Motion;
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// All grains of a scene in which some are free, and how they move; lattice units. Those that are not
 /// free are held by the DEM: they keep their velocity whatever acts on them.

@@ -9,7 +9,7 @@ use psmrt_reference::solids::{Shape, Solid};
 use super::numbers::{absent, beyond, finite, needed, positive, shorter_step};
 use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
 use crate::scene::format_grains::{GrainsSection, Motion};
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// A grain with fewer cells across is not seen by the fluid as a sphere at all.
 pub const MIN_CELLS_PER_DIAMETER: f64 = 2.0;

@@ -7,7 +7,7 @@ use super::Trouble;
 use super::grains::GrainList;
 use super::neighbours::MAX_OVERLAP;
 use crate::scene::format_grains::Motion;
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// A centre that lies this close to a mirror plane, in cells, lies on it.
 const ON_PLANE: f64 = 1e-6;

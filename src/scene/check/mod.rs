@@ -35,9 +35,9 @@ use psmrt_reference::setup::{Setup, SetupError};
 
 use super::format::SceneFile;
 use super::format_run::ExactName;
-use super::units::Units;
 use super::{Scene, Trouble};
 use crate::exact::PlanePoiseuille;
+use crate::units::Units;
 use free::FreePart;
 use grains::GrainList;
 use numbers::{beyond, finite, positive, sane, shorter_step};

@@ -5,7 +5,7 @@ use psmrt_reference::lattice::Vec3;
 
 use super::Trouble;
 use super::grains::Listed;
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// How deep two grains may overlap, in diameters of the smaller, or a grain and a face: contacts in
 /// packings from discrete-element codes are not sharp.

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::Trouble;
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// Steps that a run can count.
 const MOST_STEPS: f64 = 1e15;

@@ -10,7 +10,7 @@ use super::grains::Attachment;
 use super::numbers::{absent, count, finite, needed, steps};
 use crate::output::names::{self, Made, Maker};
 use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// A record of a run.
 #[derive(Clone, Debug, PartialEq)]

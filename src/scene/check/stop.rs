@@ -7,7 +7,7 @@ use crate::output::csv::Column;
 use crate::output::grain_means;
 use crate::output::records::{BOX_COLUMNS, FORCE_COLUMNS};
 use crate::scene::format_run::{SteadySection, StopSection};
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// When a run ends.
 #[derive(Clone, Debug, PartialEq)]

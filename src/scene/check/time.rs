@@ -6,7 +6,7 @@ use psmrt_reference::rates::Rates;
 use super::numbers::{absent, needed, positive, sane};
 use super::{MAX_SPEED, Trouble};
 use crate::scene::format::{FluidSection, TimeSection};
-use crate::scene::units::Units;
+use crate::units::Units;
 
 /// The largest relaxation time that is taken: places of walls and grains are lost far below.
 const LARGEST_TAU: f64 = 1e4;

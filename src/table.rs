@@ -1,8 +1,13 @@
-//! Rows of named columns: what a case measures, and what the golden files hold.
+//! Rows of named columns, as CSV files hold them.
 
 use std::path::Path;
 
-use super::CaseError;
+use thiserror::Error;
+
+/// A table that cannot be read or lacks something, in words.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{0}")]
+pub struct TableError(pub String);
 
 /// A table of text; numbers are parsed where they are used.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,22 +25,22 @@ impl Table {
     }
 
     /// Reads a CSV file whose lines that start with `#` are comments. Errors if it cannot be read.
-    pub fn read(path: &Path) -> Result<Self, CaseError> {
+    pub fn read(path: &Path) -> Result<Self, TableError> {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path)
-            .map_err(|error| CaseError::Table(format!("{name}: {error}")))?;
+            .map_err(|error| TableError(format!("{name}: {error}")))?;
         Self::parse(&name, &text)
     }
 
     /// The same from a file's text; `name` is what messages call it.
-    pub fn parse(name: &str, text: &str) -> Result<Self, CaseError> {
-        let wrong = |error: csv::Error| CaseError::Table(format!("{name}: {error}"));
+    pub fn parse(name: &str, text: &str) -> Result<Self, TableError> {
+        let wrong = |error: csv::Error| TableError(format!("{name}: {error}"));
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
         let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
         let rows = reader
             .records()
             .map(|row| Ok(row.map_err(wrong)?.iter().map(str::to_owned).collect()))
-            .collect::<Result<_, CaseError>>()?;
+            .collect::<Result<_, TableError>>()?;
         Ok(Table { columns, rows })
     }
 
@@ -59,59 +64,59 @@ impl Table {
     }
 
     /// The number of a column. Errors if there is no such column.
-    fn column(&self, name: &str) -> Result<usize, CaseError> {
+    fn column(&self, name: &str) -> Result<usize, TableError> {
         let found = self.columns.iter().position(|column| column == name);
-        found.ok_or_else(|| CaseError::Table(format!("no column {name:?} in {:?}", self.columns)))
+        found.ok_or_else(|| TableError(format!("no column {name:?} in {:?}", self.columns)))
     }
 
     /// The rows whose columns have these values.
-    pub fn with(&self, wanted: &[(&str, &str)]) -> Result<Table, CaseError> {
+    pub fn with(&self, wanted: &[(&str, &str)]) -> Result<Table, TableError> {
         let wanted = wanted
             .iter()
             .map(|&(name, value)| Ok((self.column(name)?, value)))
-            .collect::<Result<Vec<_>, CaseError>>()?;
+            .collect::<Result<Vec<_>, TableError>>()?;
         let rows = self.rows.iter().filter(|row| wanted.iter().all(|(i, value)| row[*i] == *value));
         Ok(Table { columns: self.columns.clone(), rows: rows.cloned().collect() })
     }
 
     /// The values of a column, in the order of the rows. Errors if one is no number.
-    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, CaseError> {
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, TableError> {
         let column = self.column(name)?;
         let number = |row: &Vec<String>| {
-            let problem = || CaseError::Table(format!("column {name:?} holds {:?}", row[column]));
+            let problem = || TableError(format!("column {name:?} holds {:?}", row[column]));
             row[column].parse().map_err(|_| problem())
         };
         self.rows.iter().map(number).collect()
     }
 
     /// The values of a column where there are any, in the order of the rows. Errors if one is no number.
-    pub fn numbers_where_given(&self, name: &str) -> Result<Vec<f64>, CaseError> {
+    pub fn numbers_where_given(&self, name: &str) -> Result<Vec<f64>, TableError> {
         let column = self.column(name)?;
         let rows = self.rows.iter().filter(|row| !row[column].is_empty());
         Table { columns: self.columns.clone(), rows: rows.cloned().collect() }.numbers(name)
     }
 
     /// The one value of a column. Errors unless there is exactly one row.
-    pub fn number(&self, name: &str) -> Result<f64, CaseError> {
+    pub fn number(&self, name: &str) -> Result<f64, TableError> {
         match self.numbers(name)?[..] {
             [value] => Ok(value),
-            ref values => Err(CaseError::Table(format!("{} rows for {name:?}", values.len()))),
+            ref values => Err(TableError(format!("{} rows for {name:?}", values.len()))),
         }
     }
 
     /// Pairs of two columns: points of a curve.
-    pub fn points(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, CaseError> {
+    pub fn points(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, TableError> {
         Ok(self.numbers(x)?.into_iter().zip(self.numbers(y)?).collect())
     }
 
     /// Pairs of words of two columns.
-    pub fn words(&self, one: &str, two: &str) -> Result<Vec<(&str, &str)>, CaseError> {
+    pub fn words(&self, one: &str, two: &str) -> Result<Vec<(&str, &str)>, TableError> {
         let (one, two) = (self.column(one)?, self.column(two)?);
         Ok(self.rows.iter().map(|row| (row[one].as_str(), row[two].as_str())).collect())
     }
 
     /// The different values of a column, in the order in which they first stand there.
-    pub fn values(&self, name: &str) -> Result<Vec<String>, CaseError> {
+    pub fn values(&self, name: &str) -> Result<Vec<String>, TableError> {
         let column = self.column(name)?;
         let mut values: Vec<String> = Vec::new();
         for row in &self.rows {
