@@ -1,7 +1,7 @@
 //! How far the kernel is from the oracle, over what single precision explains:
 //! `cargo run --example kernel_parity > golden/kernel_parity/parity.csv`.
 //!
-//! The same scenes and bounds as `tests/kernel_parity.rs` and `tests/kernel_runs.rs`, which say where the
+//! The same scenes and bounds as `tests/device/kernel_parity.rs` and `tests/device/kernel_runs.rs`, which say where the
 //! bounds come from.
 
 #[path = "../tests/common/mod.rs"]
@@ -77,7 +77,9 @@ fn main() {
     let gpu = trials::gpu().expect("an adapter");
     let facts = gpu.facts();
     println!("# The kernel against the oracle: the largest error of any cell or solid over what");
-    println!("# single precision explains (tests/kernel_parity.rs, tests/kernel_runs.rs).");
+    println!(
+        "# single precision explains (tests/device/kernel_parity.rs, tests/device/kernel_runs.rs)."
+    );
     println!("# Made by: cargo run --example kernel_parity > golden/kernel_parity/parity.csv");
     println!("# Adapter: {} ({}, {}; {})", facts.name, facts.kind, facts.backend, facts.driver);
     println!("scene,steps,quantity,error,allowed");

@@ -25,7 +25,7 @@ pub const CASE: Case = Case {
     draw,
 };
 
-/// Making the table takes Python and is the test `tests/conformance_candidates.rs`.
+/// Making the table takes Python and is the test `tests/device/conformance_candidates.rs`.
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     bench.literature(CASE.name, CASE.rows)
 }

@@ -14,7 +14,7 @@ pub const CASE: Case = Case {
          they share no physics code. After one step from random states the error of a population is \
          divided by single precision's epsilon and by the sum of the absolute populations less their \
          weights; after 100 and 1,000 steps errors of populations, forces and torques are divided by what \
-         rounding adds up to (the bound is derived in tests/kernel_runs.rs). The table is made by cargo \
+         rounding adds up to (the bound is derived in tests/device/kernel_runs.rs). The table is made by cargo \
          run --example kernel_parity; `cargo test` holds both to the same bounds anew.",
     ],
     scenes: &[],
@@ -30,11 +30,11 @@ pub const CASE: Case = Case {
 /// Errors after so many steps.
 const STEPS: [(&str, f64, &str); 3] = [
     ("1", 16.0, "a few tens of operations, each rounded to half an epsilon, add up to less"),
-    ("100", 1.0, "the bound that rounding gives, see tests/kernel_runs.rs"),
-    ("1000", 1.0, "the bound that rounding gives, see tests/kernel_runs.rs"),
+    ("100", 1.0, "the bound that rounding gives, see tests/device/kernel_runs.rs"),
+    ("1000", 1.0, "the bound that rounding gives, see tests/device/kernel_runs.rs"),
 ];
 
-/// Making the table takes a device and both engines: `tests/kernel_parity.rs` and `tests/kernel_runs.rs`.
+/// Making the table takes a device and both engines: `tests/device/kernel_parity.rs` and `tests/device/kernel_runs.rs`.
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     bench.literature(CASE.name, CASE.rows)
 }

@@ -65,7 +65,7 @@ pub fn steadiness(engine: &str, runs: &[Settled]) -> Option<Claim> {
         measured: worst,
         allowed: 0.0..=1.0,
         why: "the criterion allows no more, or there is no result; here the rows of the record are asked, all of them. \
-              How good the estimate is: tests/steady.rs",
+              How good the estimate is: tests/suite/steady.rs",
     })
 }
 

@@ -19,7 +19,7 @@
 //!
 //! **Architecture invariant:** of the oracle this takes words for set-ups only (directions, domain,
 //! solids, which models are on). Weights, equilibria, collision, faces and coverage are its own, so
-//! that each checks the other. `tests/tidy.rs` holds this.
+//! that each checks the other. `tests/suite/tidy.rs` holds this.
 
 mod buffers;
 mod compose;

@@ -72,6 +72,14 @@ impl Lock {
     }
 }
 
+impl Drop for Lock {
+    /// Closing the file would not do where another thread has just started a process: that one has a copy of all
+    /// open files until it becomes the program asked for, and the copy would keep the lock.
+    fn drop(&mut self) {
+        let _ = self.file.unlock();
+    }
+}
+
 /// What the holder has written, if it can be read.
 fn holder(file: &mut File) -> String {
     let mut text = String::new();

@@ -1,6 +1,6 @@
 //! Runs that are started and killed: a grain from a list in a small box.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses a part of this")]
+#![allow(dead_code, reason = "each test binary is a crate of its own and uses a part of this")]
 
 use std::fs;
 use std::path::{Path, PathBuf};

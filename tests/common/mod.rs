@@ -14,7 +14,7 @@ pub mod suspension;
 use psmrt_reference::solver::Solver;
 use std::path::Path;
 
-/// The cell updates that a test may spend on the oracle; `tests/tidy.rs` adds up the literals of all
+/// The cell updates that a test may spend on the oracle; `tests/suite/tidy.rs` adds up the literals of all
 /// tests. A run that would need more fails instead of passing unconverged.
 pub struct Budget {
     allowed: u64,

@@ -2,30 +2,28 @@
 //! the language is missing they are listed as ignored, with the reason; with PSMRT_REQUIRE_PYTHON=1 that
 //! is a failure.
 
-mod conformance;
-
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::Command;
 
-use conformance::{numpy_candidate, run, sources, verdict, with_kit};
-use libtest_mimic::{Arguments, Failed, Trial};
+use crate::conformance::{self, numpy_candidate, run, sources, verdict, with_kit};
+use libtest_mimic::{Failed, Trial};
 use psmrt::conformance::kit::Kit;
 
-fn main() -> ExitCode {
-    let arguments = Arguments::from_args();
+/// The trials of the candidates.
+pub fn trials() -> Vec<Trial> {
     let (python, cc) = (conformance::python_missing(), conformance::compiler_missing());
-    let trials = vec![
+    vec![
         trial("numpy_candidate_passes_in_double_single_and_half_precision", python, precisions),
         trial("each_mistake_planted_in_the_numpy_candidate_is_named", python, mistakes),
         trial("first_answers_of_the_readme_are_right", python, first_answers),
         trial("c_candidate_passes_stages_0_to_2", cc, c_candidate),
-    ];
-    libtest_mimic::run(&arguments, trials).exit_code()
+    ]
 }
 
 /// A trial that is ignored, or fails, where what it needs is missing.
-fn trial(name: &str, missing: Option<&'static str>, test: fn()) -> Trial {
+fn trial(claim: &str, missing: Option<&'static str>, test: fn()) -> Trial {
+    let name = format!("conformance_candidates::{claim}");
     let required = std::env::var_os("PSMRT_REQUIRE_PYTHON").is_some_and(|value| value == "1");
     match missing {
         None => Trial::test(name, move || {

@@ -2,12 +2,8 @@
 //! judged in single precision. Constants and moments are inside its shaders, and grains in contact are not
 //! its own: not attempted.
 
-mod common;
-mod trials;
-
-use std::process::ExitCode;
-
-use common::Budget;
+use crate::common::Budget;
+use crate::trials::{self, Claim};
 use psmrt::conformance::folder::{read, write};
 use psmrt::conformance::judge::{Submission, judge_submission};
 use psmrt::conformance::kit::Kit;
@@ -22,12 +18,11 @@ use psmrt_reference::lattice::{Populations, Vec3, W, density, momentum};
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::{Load, Solid};
 
-fn main() -> ExitCode {
-    trials::run(&[
-        ("kernel_passes_the_conformance_kit", kernel_passes_the_conformance_kit),
-        ("kernel_that_weighs_by_solid_fraction_is_found_out", wrong_weight_is_found_out),
-    ])
-}
+/// What is claimed here.
+pub const CLAIMS: &[Claim] = &[
+    ("kernel_passes_the_conformance_kit", kernel_passes_the_conformance_kit),
+    ("kernel_that_weighs_by_solid_fraction_is_found_out", wrong_weight_is_found_out),
+];
 
 /// The kernel as a candidate; `spoil` may change a set-up before it gets it.
 struct KernelCandidate {

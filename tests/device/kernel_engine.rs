@@ -1,15 +1,11 @@
 //! The kernel as an engine: free grains, saved states, the guard, the command line.
 
-mod cli;
-mod common;
-mod trials;
-
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-use cli::{Folder, psmrt, stdout};
-use common::Budget;
+use crate::cli::{Folder, psmrt, stdout};
+use crate::common::{Budget, golden_rows};
+use crate::trials::{self, Claim};
 use psmrt::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::CoupledStop;
@@ -95,7 +91,7 @@ fn free_grains_move_as_in_the_oracle() {
             "speed {speed:.2e}, off by {off:.1e}, place by {:.1e}",
             (found.centre - expected.centre).norm()
         );
-        // The load of a step is off by about 1e-6 (tests/kernel_runs.rs: 2 ε of gauges below 0.3, times
+        // The load of a step is off by about 1e-6 (tests/device/kernel_runs.rs: 2 ε of gauges below 0.3, times
         // √(10 · 200)), the grain weighs 65 or more: 2e-8 a step, independent from step to step.
         let bound = 2e-8 * (STEPS as f64).sqrt();
         assert!(
@@ -165,7 +161,7 @@ fn grain_that_starts_spinning_slows_down_as_the_exact_curve_says() {
     let spin = |kernel: &KernelEngine| kernel.solids()[0].spin.z;
     let start = spin(&kernel);
     // T = 0.1, 0.2 and 0.3: 48 steps each, since ν = 1/30 and a = 4.
-    let rows = common::golden_rows("free_start/exact.csv");
+    let rows = golden_rows("free_start/exact.csv");
     for time in ["0.1", "0.2", "0.3"] {
         budget.spend(48 * scene.setup.domain.cell_count() as u64);
         kernel.step(48).unwrap();
@@ -212,7 +208,7 @@ fn every_golden_scene_starts_and_steps_alike_on_both_engines() {
         kernel.step(STEPS).unwrap();
         oracle.step(STEPS).unwrap();
         let all: Vec<usize> = (0..count).collect();
-        // As in tests/kernel_runs.rs: populations are off by 2 (√n ε + δB) g, and ten of them make a
+        // As in tests/device/kernel_runs.rs: populations are off by 2 (√n ε + δB) g, and ten of them make a
         // momentum. The gauge g, the sum of the populations less their weights, is below |ρ - 1| + 5 |u|;
         // δB is that of tau = 1/2 + 0.2 and more, which the golden scenes with free grains have.
         let expected = oracle.cells(&all);
@@ -364,35 +360,34 @@ fn box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available() {
     assert!(message.contains("larger dx"), "{message}");
 }
 
-fn main() -> ExitCode {
-    trials::run(&[
-        (
-            "box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available",
-            box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available,
-        ),
-        ("free_grains_move_as_in_the_oracle", free_grains_move_as_in_the_oracle),
-        ("balanced_grains_settle_as_in_the_oracle", balanced_grains_settle_as_in_the_oracle),
-        (
-            "grain_that_starts_spinning_slows_down_as_the_exact_curve_says",
-            grain_that_starts_spinning_slows_down_as_the_exact_curve_says,
-        ),
-        (
-            "every_golden_scene_starts_and_steps_alike_on_both_engines",
-            every_golden_scene_starts_and_steps_alike_on_both_engines,
-        ),
-        ("saved_state_goes_on_bit_for_bit", saved_state_goes_on_bit_for_bit),
-        (
-            "guard_stops_a_run_where_and_why_the_oracles_does",
-            guard_stops_a_run_where_and_why_the_oracles_does,
-        ),
-        (
-            "run_on_the_command_line_keeps_its_engine_and_goes_on_with_it",
-            run_on_the_command_line_keeps_its_engine_and_goes_on_with_it,
-        ),
-        ("adapter_for_the_oracle_is_an_error", adapter_for_the_oracle_is_an_error),
-        (
-            "unknown_adapter_is_an_error_that_lists_the_known_ones",
-            unknown_adapter_is_an_error_that_lists_the_known_ones,
-        ),
-    ])
-}
+/// What is claimed here.
+pub const CLAIMS: &[Claim] = &[
+    (
+        "box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available",
+        box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available,
+    ),
+    ("free_grains_move_as_in_the_oracle", free_grains_move_as_in_the_oracle),
+    ("balanced_grains_settle_as_in_the_oracle", balanced_grains_settle_as_in_the_oracle),
+    (
+        "grain_that_starts_spinning_slows_down_as_the_exact_curve_says",
+        grain_that_starts_spinning_slows_down_as_the_exact_curve_says,
+    ),
+    (
+        "every_golden_scene_starts_and_steps_alike_on_both_engines",
+        every_golden_scene_starts_and_steps_alike_on_both_engines,
+    ),
+    ("saved_state_goes_on_bit_for_bit", saved_state_goes_on_bit_for_bit),
+    (
+        "guard_stops_a_run_where_and_why_the_oracles_does",
+        guard_stops_a_run_where_and_why_the_oracles_does,
+    ),
+    (
+        "run_on_the_command_line_keeps_its_engine_and_goes_on_with_it",
+        run_on_the_command_line_keeps_its_engine_and_goes_on_with_it,
+    ),
+    ("adapter_for_the_oracle_is_an_error", adapter_for_the_oracle_is_an_error),
+    (
+        "unknown_adapter_is_an_error_that_lists_the_known_ones",
+        unknown_adapter_is_an_error_that_lists_the_known_ones,
+    ),
+];

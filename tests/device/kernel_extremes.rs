@@ -1,13 +1,8 @@
-//! The extremes of `tests/extremes.rs` on the kernel.
+//! The extremes of `tests/suite/extremes.rs` on the kernel.
 
-mod cli;
-mod common;
-mod edges;
-mod trials;
-
-use std::process::ExitCode;
-
-use common::Budget;
+use crate::common::Budget;
+use crate::edges;
+use crate::trials::{self, Claim};
 use psmrt::engine::EngineName;
 use psmrt::stability::Lab;
 
@@ -62,37 +57,33 @@ fn scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite() {
     edges::broken_scenes("wgpu");
 }
 
-fn main() -> ExitCode {
-    trials::run(&[
-        (
-            "a_box_of_one_cell_gains_what_the_force_gives",
-            a_box_of_one_cell_gains_what_the_force_gives,
-        ),
-        (
-            "a_channel_of_one_column_is_the_channel_of_nine",
-            a_channel_of_one_column_is_the_channel_of_nine,
-        ),
-        ("a_box_that_is_all_solid_stops_the_fluid", a_box_that_is_all_solid_stops_the_fluid),
-        (
-            "what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady",
-            what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady,
-        ),
-        ("a_solid_phase_without_solids_is_none", a_solid_phase_without_solids_is_none),
-        (
-            "units_from_nanometres_to_metres_give_the_same_lattice_numbers",
-            units_from_nanometres_to_metres_give_the_same_lattice_numbers,
-        ),
-        (
-            "runs_inside_the_frontiers_survive_and_those_outside_are_stopped",
-            runs_inside_the_frontiers_survive_and_those_outside_are_stopped,
-        ),
-        (
-            "eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused",
-            eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused,
-        ),
-        (
-            "scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite",
-            scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite,
-        ),
-    ])
-}
+/// What is claimed here.
+pub const CLAIMS: &[Claim] = &[
+    ("a_box_of_one_cell_gains_what_the_force_gives", a_box_of_one_cell_gains_what_the_force_gives),
+    (
+        "a_channel_of_one_column_is_the_channel_of_nine",
+        a_channel_of_one_column_is_the_channel_of_nine,
+    ),
+    ("a_box_that_is_all_solid_stops_the_fluid", a_box_that_is_all_solid_stops_the_fluid),
+    (
+        "what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady",
+        what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady,
+    ),
+    ("a_solid_phase_without_solids_is_none", a_solid_phase_without_solids_is_none),
+    (
+        "units_from_nanometres_to_metres_give_the_same_lattice_numbers",
+        units_from_nanometres_to_metres_give_the_same_lattice_numbers,
+    ),
+    (
+        "runs_inside_the_frontiers_survive_and_those_outside_are_stopped",
+        runs_inside_the_frontiers_survive_and_those_outside_are_stopped,
+    ),
+    (
+        "eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused",
+        eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused,
+    ),
+    (
+        "scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite",
+        scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite,
+    ),
+];

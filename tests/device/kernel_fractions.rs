@@ -5,14 +5,10 @@
 //! cell's own size), and an epsilon of a place r cells from the centre moves the surface by r epsilon
 //! through an area of at most about √2.
 
-mod common;
-mod trials;
-
-use std::process::ExitCode;
-
-use common::cuts::{cut, images};
-use common::random::Random;
-use common::sphere_quadrature::fraction_by_quadrature;
+use crate::common::cuts::{cut, images};
+use crate::common::random::Random;
+use crate::common::sphere_quadrature::fraction_by_quadrature;
+use crate::trials::{self, Claim};
 use psmrt::kernel::solid_fractions_on_device;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
@@ -95,23 +91,22 @@ fn device_fractions_hardly_know_the_axes_of_the_box() {
     }
 }
 
-fn main() -> ExitCode {
-    trials::run(&[
-        (
-            "device_fractions_are_the_volumes_that_quadrature_finds",
-            device_fractions_are_the_volumes_that_quadrature_finds,
-        ),
-        (
-            "device_fractions_add_up_to_the_volume_of_the_ball",
-            device_fractions_add_up_to_the_volume_of_the_ball,
-        ),
-        (
-            "device_fractions_of_balls_that_miss_fill_or_halve_the_cell_are_exact",
-            device_fractions_of_balls_that_miss_fill_or_halve_the_cell_are_exact,
-        ),
-        (
-            "device_fractions_hardly_know_the_axes_of_the_box",
-            device_fractions_hardly_know_the_axes_of_the_box,
-        ),
-    ])
-}
+/// What is claimed here.
+pub const CLAIMS: &[Claim] = &[
+    (
+        "device_fractions_are_the_volumes_that_quadrature_finds",
+        device_fractions_are_the_volumes_that_quadrature_finds,
+    ),
+    (
+        "device_fractions_add_up_to_the_volume_of_the_ball",
+        device_fractions_add_up_to_the_volume_of_the_ball,
+    ),
+    (
+        "device_fractions_of_balls_that_miss_fill_or_halve_the_cell_are_exact",
+        device_fractions_of_balls_that_miss_fill_or_halve_the_cell_are_exact,
+    ),
+    (
+        "device_fractions_hardly_know_the_axes_of_the_box",
+        device_fractions_hardly_know_the_axes_of_the_box,
+    ),
+];

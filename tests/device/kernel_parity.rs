@@ -5,19 +5,14 @@
 //! gauge of its cell, must stay below 16; the gauge is the sum of the absolute values of what the
 //! kernel adds up there: the populations less their weights before and after the collision.
 
-mod common;
-mod parity;
-mod trials;
-
-use std::process::ExitCode;
-
-use common::Budget;
-use common::collisions::dhumieres;
-use common::random::Random;
-use parity::{
+use crate::common::Budget;
+use crate::common::collisions::dhumieres;
+use crate::common::random::Random;
+use crate::parity::{
     CELLS, G, OPERATORS, WEIGHTINGS, collisions, error_of_one_step, given_fractions, mixed_faces,
     random_state,
 };
+use crate::trials::Claim;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::setup::{Setup, SolidPhase};
 
@@ -91,19 +86,18 @@ fn every_face_and_edge_lets_in_what_the_oracles_does() {
     }
 }
 
-fn main() -> ExitCode {
-    trials::run(&[
-        (
-            "fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates",
-            fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates,
-        ),
-        (
-            "solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions",
-            solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions,
-        ),
-        (
-            "every_face_and_edge_lets_in_what_the_oracles_does",
-            every_face_and_edge_lets_in_what_the_oracles_does,
-        ),
-    ])
-}
+/// What is claimed here.
+pub const CLAIMS: &[Claim] = &[
+    (
+        "fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates",
+        fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates,
+    ),
+    (
+        "solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions",
+        solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions,
+    ),
+    (
+        "every_face_and_edge_lets_in_what_the_oracles_does",
+        every_face_and_edge_lets_in_what_the_oracles_does,
+    ),
+];

@@ -1,14 +1,11 @@
 //! The kernel against exact solutions and published tables, without the oracle.
 
-mod common;
-mod trials;
-
 use std::f64::consts::PI;
-use std::process::ExitCode;
 
-use common::collisions::{dhumieres, srt};
-use common::random::Random;
-use common::{Budget, golden_rows, observed_order};
+use crate::common::collisions::{dhumieres, srt};
+use crate::common::random::Random;
+use crate::common::{Budget, golden_rows, observed_order};
+use crate::trials::{self, Claim};
 use psmrt::kernel::Kernel;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::{C, Q, number_of};
@@ -270,27 +267,20 @@ fn turned_and_mirrored_flows_are_the_same_flow() {
     }
 }
 
-fn main() -> ExitCode {
-    trials::run(&[
-        (
-            "poiseuille_flow_converges_with_second_order_to_the_exact_profile",
-            poiseuille_flow_converges_with_second_order_to_the_exact_profile,
-        ),
-        (
-            "shear_wave_decays_with_the_viscosity_of_tau",
-            shear_wave_decays_with_the_viscosity_of_tau,
-        ),
-        (
-            "drag_of_a_sphere_array_converges_to_zick_and_homsy",
-            drag_of_a_sphere_array_converges_to_zick_and_homsy,
-        ),
-        (
-            "mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps",
-            mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps,
-        ),
-        (
-            "turned_and_mirrored_flows_are_the_same_flow",
-            turned_and_mirrored_flows_are_the_same_flow,
-        ),
-    ])
-}
+/// What is claimed here.
+pub const CLAIMS: &[Claim] = &[
+    (
+        "poiseuille_flow_converges_with_second_order_to_the_exact_profile",
+        poiseuille_flow_converges_with_second_order_to_the_exact_profile,
+    ),
+    ("shear_wave_decays_with_the_viscosity_of_tau", shear_wave_decays_with_the_viscosity_of_tau),
+    (
+        "drag_of_a_sphere_array_converges_to_zick_and_homsy",
+        drag_of_a_sphere_array_converges_to_zick_and_homsy,
+    ),
+    (
+        "mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps",
+        mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps,
+    ),
+    ("turned_and_mirrored_flows_are_the_same_flow", turned_and_mirrored_flows_are_the_same_flow),
+];

@@ -20,15 +20,10 @@
 //! twice δB g of what a step adds to a population; the steps after it do not add more of that, since each
 //! relaxes towards the solid's velocity, which does not depend on it: `√n ε + δB` in place of `√n ε`.
 
-mod common;
-mod parity;
-mod trials;
-
-use std::process::ExitCode;
-
-use common::Budget;
-use common::random::Random;
-use parity::{Both, scenes, sphere, waves};
+use crate::common::Budget;
+use crate::common::random::Random;
+use crate::parity::{Both, scenes, sphere, waves};
+use crate::trials::{self, Claim};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use psmrt::kernel::{Gpu, Kernel};
@@ -234,24 +229,23 @@ fn crowd() -> Setup {
     Setup::fluid(Domain::new([12; 3], Faces::PERIODIC).unwrap(), collision).with_solids(phase)
 }
 
-fn main() -> ExitCode {
-    trials::run(&[
-        (
-            "hundred_steps_of_every_model_and_face_stay_within_rounding_of_the_oracle",
-            hundred_steps_of_every_model_and_face_stay_within_rounding_of_the_oracle,
-        ),
-        (
-            "cells_one_at_a_time_and_populations_over_two_bindings_give_the_same",
-            cells_one_at_a_time_and_populations_over_two_bindings_give_the_same,
-        ),
-        (
-            "thousand_steps_stay_within_rounding_of_the_oracle",
-            thousand_steps_stay_within_rounding_of_the_oracle,
-        ),
-        (
-            "random_scenes_stay_within_rounding_of_the_oracle",
-            random_scenes_stay_within_rounding_of_the_oracle,
-        ),
-        ("two_runs_give_the_same_bits", two_runs_give_the_same_bits),
-    ])
-}
+/// What is claimed here.
+pub const CLAIMS: &[Claim] = &[
+    (
+        "hundred_steps_of_every_model_and_face_stay_within_rounding_of_the_oracle",
+        hundred_steps_of_every_model_and_face_stay_within_rounding_of_the_oracle,
+    ),
+    (
+        "cells_one_at_a_time_and_populations_over_two_bindings_give_the_same",
+        cells_one_at_a_time_and_populations_over_two_bindings_give_the_same,
+    ),
+    (
+        "thousand_steps_stay_within_rounding_of_the_oracle",
+        thousand_steps_stay_within_rounding_of_the_oracle,
+    ),
+    (
+        "random_scenes_stay_within_rounding_of_the_oracle",
+        random_scenes_stay_within_rounding_of_the_oracle,
+    ),
+    ("two_runs_give_the_same_bits", two_runs_give_the_same_bits),
+];

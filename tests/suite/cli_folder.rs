@@ -1,15 +1,12 @@
 //! The folder of a run: one process at a time, names that differ, and what happens when it goes away.
 
-mod cli;
-mod common;
-
 use std::fs;
 use std::path::Path;
 use std::process::Child;
 
-use cli::runs::{CELLS, bytes, checkpoints, scene, start, until, write};
-use cli::{Folder, psmrt, psmrt_in, stderr, stdout};
-use common::Budget;
+use crate::cli::runs::{CELLS, bytes, checkpoints, scene, start, until, write};
+use crate::cli::{Folder, psmrt, psmrt_in, stderr, stdout};
+use crate::common::Budget;
 
 /// Longer than any test waits: these runs are killed.
 const ENDLESS: u64 = 1_000_000_000;

@@ -2,13 +2,10 @@
 
 #![cfg(target_os = "linux")]
 
-mod cli;
-mod common;
-
 use std::process::Command;
 
-use cli::{Folder, stderr};
-use common::Budget;
+use crate::cli::{Folder, stderr};
+use crate::common::Budget;
 
 const SCENE: &str = "[domain]\ncells = [64, 64, 64]\ndx = 1e-5\n[fluid]\ndensity = 1000.0\n\
                      kinematic_viscosity = 1e-6\n[time]\ntau = 0.8\n[[records]]\nname = \"box\"\n\

@@ -1,14 +1,12 @@
 //! `psmrt pack` and grains that scenes make by themselves: what is asked for, the same for a seed.
 
-mod cli;
-
 use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use cli::{Folder, psmrt, psmrt_in, stderr, stdout};
+use crate::cli::{Folder, psmrt, psmrt_in, stderr, stdout};
 use psmrt::scene::Scene;
 use psmrt_reference::solids::{Shape, Solid};
 

@@ -2,15 +2,12 @@
 
 #![cfg(target_os = "linux")]
 
-mod cli;
-mod common;
-
 use std::fs::OpenOptions;
 use std::process::{Command, Stdio};
 
-use cli::Folder;
-use cli::runs::{CELLS, checkpoints, start, until, write};
-use common::Budget;
+use crate::cli::Folder;
+use crate::cli::runs::{CELLS, checkpoints, start, until, write};
+use crate::common::Budget;
 
 /// A device that is always full.
 fn full() -> Stdio {

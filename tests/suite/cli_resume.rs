@@ -1,15 +1,12 @@
 //! A run that is killed at any moment goes on, and ends with the same bytes as one that was not.
 
-mod cli;
-mod common;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-use cli::{Folder, psmrt, stderr};
-use common::Budget;
+use crate::cli::{Folder, psmrt, stderr};
+use crate::common::Budget;
 
 /// A sphere that moves through a box, all kinds of records, in half a second of computing.
 const SCENE: &str = r#"

@@ -1,14 +1,11 @@
 //! What a run cannot go on from is refused by name, and nothing is lost by trying.
 
-mod cli;
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use cli::runs::{self, CELLS, bytes, checkpoints, header, killed, start, until, write};
-use cli::{Folder, psmrt, stderr, stdout};
-use common::Budget;
+use crate::cli::runs::{self, CELLS, bytes, checkpoints, header, killed, start, until, write};
+use crate::cli::{Folder, psmrt, stderr, stdout};
+use crate::common::Budget;
 
 /// Longer than any test waits: these runs are killed.
 const ENDLESS: u64 = 1_000_000_000;

@@ -1,13 +1,10 @@
 //! The command line as a newcomer uses it.
 
-mod cli;
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use cli::{Folder, psmrt, psmrt_in, stderr, stdout};
-use common::Budget;
+use crate::cli::{Folder, psmrt, psmrt_in, stderr, stdout};
+use crate::common::Budget;
 use serde_json::Value;
 
 const POISEUILLE: &str = "golden/poiseuille/scene.toml";

@@ -1,12 +1,10 @@
 //! The kit as files: the same bytes each time, held by committed checksums, comparable between
 //! machines; and clear words for kits and candidates that cannot be used.
 
-mod cli;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use cli::{Folder, psmrt, stderr, stdout};
+use crate::cli::{Folder, psmrt, stderr, stdout};
 use psmrt::conformance::KIT_VERSION;
 use psmrt::conformance::checksums::{agree, parse, rows};
 use psmrt::conformance::files::files;

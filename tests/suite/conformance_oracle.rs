@@ -1,9 +1,7 @@
 //! The conformance kit and its judge, tried on the oracle itself: as it is, rounded to lower
 //! precision, in another order of directions, and with each mistake of the catalogue.
 
-mod common;
-
-use common::Budget;
+use crate::common::Budget;
 use psmrt::conformance::judge::{Judged, LIMIT, Submission, judge_submission};
 use psmrt::conformance::kit::Kit;
 use psmrt::conformance::mistakes::CATALOGUE;

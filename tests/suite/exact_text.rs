@@ -1,7 +1,7 @@
 //! Exact text that others read or copy: the matrix `M`, the diagonal of `S-hat`, the help. These guard
 //! against drift only; that `M` and `S-hat` are right is in `moments.rs`.
 //!
-//! To take over a wanted change: `INSTA_UPDATE=always cargo test --test exact_text`, and review the diff.
+//! To take over a wanted change: `INSTA_UPDATE=always cargo test --test suite exact_text::`, and review the diff.
 
 use psmrt_reference::directions::{C, ORDER};
 use psmrt_reference::moments::{NAMES, moment_matrix};

@@ -1,11 +1,8 @@
 //! The extremes, on the oracle: scenes at the edge of what makes sense, units from nanometres to metres, and
-//! runs on either side of the frontiers of stability. (On the kernel: `tests/kernel_extremes.rs`.)
+//! runs on either side of the frontiers of stability. (On the kernel: `tests/device/kernel_extremes.rs`.)
 
-mod cli;
-mod common;
-mod edges;
-
-use common::Budget;
+use crate::common::Budget;
+use crate::edges;
 use psmrt::engine::EngineName;
 use psmrt::stability::Lab;
 

@@ -1,10 +1,7 @@
 //! `psmrt plan`: its proposals, what it writes, and its words when it cannot.
 
-mod cli;
-mod common;
-
-use cli::{Folder, psmrt, stderr, stdout};
-use common::Budget;
+use crate::cli::{Folder, psmrt, stderr, stdout};
+use crate::common::Budget;
 use psmrt::estimate::warnings;
 use psmrt::plan::facts::{Facts, Limit};
 use psmrt::plan::options::{Speed, Way, cheapest, ways};

@@ -1,12 +1,10 @@
 //! What `psmrt check` and `psmrt plan` predict, against exact series and against runs that no model was fitted to.
 
-mod common;
-
 use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::Budget;
+use crate::common::Budget;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::estimate::speed::{Try, seconds_per_step};
 use psmrt::estimate::{numbers, warnings};

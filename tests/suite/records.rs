@@ -1,13 +1,10 @@
 //! What records say: where a value is taken, what the first row holds, how often rows come, how much is written.
 
-mod cli;
-mod common;
-
 use std::fs;
 use std::path::Path;
 
-use cli::{Folder, psmrt, stderr, stdout};
-use common::Budget;
+use crate::cli::{Folder, psmrt, stderr, stdout};
+use crate::common::Budget;
 use psmrt::engine::ReferenceEngine;
 use psmrt::estimate::{disk, warnings};
 use psmrt::output::records::{box_row, profile_rows};

@@ -1,13 +1,10 @@
 //! Wrong scenes: each gives one message with file, line, key, value, what is allowed and what to
 //! do; exit code 2; no panic; nothing made.
 
-mod bad_scenes;
-mod cli;
-
 use std::path::Path;
 
-use bad_scenes::{BAD, Bad, GOOD};
-use cli::{Folder, psmrt_in, stderr, stdout};
+use crate::bad_scenes::{BAD, Bad, GOOD};
+use crate::cli::{Folder, psmrt_in, stderr, stdout};
 use psmrt::scene::Scene;
 use psmrt_reference::solids::Shape;
 

@@ -1,13 +1,10 @@
 //! Contacts that hold: the default stiffness follows weight and impacts whatever the time step, a grain that is
 //! not held stops the run with cause and remedy, and keys of `[contact]` out of all proportion are blamed.
 
-mod cli;
-mod common;
-
 use std::path::Path;
 
-use cli::{Folder, psmrt, stderr};
-use common::Budget;
+use crate::cli::{Folder, psmrt, stderr};
+use crate::common::Budget;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::estimate::{numbers, warnings};
 use psmrt::scene::Scene;

@@ -1,11 +1,9 @@
 //! Scenes with free grains: what the keys become, what holds grains back, what a checkpoint keeps.
 
-mod common;
-
 use std::f64::consts::PI;
 use std::path::Path;
 
-use common::Budget;
+use crate::common::Budget;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::output::grain_means;
 use psmrt::scene::{FreePart, Scene};

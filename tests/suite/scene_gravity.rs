@@ -1,12 +1,10 @@
 //! Forces on a domain that nothing holds up: what a scene is warned of, what `gravity.balance` makes of it,
 //! and that the columns of loads add up to the driving force.
 
-mod common;
-
 use std::f64::consts::PI;
 use std::path::Path;
 
-use common::Budget;
+use crate::common::Budget;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::estimate::warnings;
 use psmrt::output::records::load_rows;

@@ -1,9 +1,7 @@
 //! Lists of grains as other programs write them: read alike, or refused with the line and with what to
 //! do about it.
 
-mod cli;
-
-use cli::{Folder, psmrt_in, stderr, stdout};
+use crate::cli::{Folder, psmrt_in, stderr, stdout};
 use psmrt::scene::{Scene, SceneError};
 
 const HEAD: &str = "x (m),y (m),z (m),diameter (m)\n";

@@ -6,10 +6,10 @@ use proptest::prelude::*;
 use psmrt::scene::Scene;
 
 const SCENES: [&str; 4] = [
-    include_str!("../golden/poiseuille/scene.toml"),
-    include_str!("../golden/sphere_arrays/scene.toml"),
-    include_str!("../golden/stokes_settling/scene.toml"),
-    include_str!("../golden/cloud_settling/scene.toml"),
+    include_str!("../../golden/poiseuille/scene.toml"),
+    include_str!("../../golden/sphere_arrays/scene.toml"),
+    include_str!("../../golden/stokes_settling/scene.toml"),
+    include_str!("../../golden/cloud_settling/scene.toml"),
 ];
 
 /// Pieces that are put in: valid and less valid TOML.

@@ -1,11 +1,9 @@
 //! What `psmrt check` tells of inlets and pressure faces: the size of what they do to the flow, held to runs.
 
-mod common;
-
 use std::f64::consts::PI;
 use std::path::Path;
 
-use common::Budget;
+use crate::common::Budget;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::estimate::{Warning, warnings};
 use psmrt::scene::Scene;

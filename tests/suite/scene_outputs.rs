@@ -1,14 +1,11 @@
 //! Fields and grains as files: what NumPy and VTK read is what was computed.
 
-mod cli;
-mod common;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use cli::{Folder, psmrt, stderr};
-use common::Budget;
+use crate::cli::{Folder, psmrt, stderr, stdout};
+use crate::common::Budget;
 
 const SCENE: &str = r#"
 [domain]
@@ -156,5 +153,5 @@ fn vtk_and_numpy_read_all_files() {
     let out = run(&folder);
     let output = Command::new("python3").args(["-c", PYTHON]).arg(&out).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
-    assert!(cli::stdout(&output).contains("read by VTK"));
+    assert!(stdout(&output).contains("read by VTK"));
 }

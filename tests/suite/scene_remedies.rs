@@ -1,11 +1,9 @@
 //! Remedies remedy: what a message says to write, written, gets past that message. And numbers beyond
 //! all proportion are refused before they become scales.
 
-mod bad_scenes;
-
 use std::path::Path;
 
-use bad_scenes::{BAD, GOOD};
+use crate::bad_scenes::{BAD, GOOD};
 use psmrt::scene::{Scene, SceneError};
 use toml_edit::{DocumentMut, Item, Value};
 

@@ -1,13 +1,10 @@
 //! Prescribed spheres go straight on: what they run into is known beforehand and stops the run there.
 
-mod cli;
-mod common;
-
 use std::path::Path;
 
-use cli::{Folder, psmrt, stderr};
-use common::Budget;
-use common::random::Random;
+use crate::cli::{Folder, psmrt, stderr, stdout};
+use crate::common::Budget;
+use crate::common::random::Random;
 use psmrt::courses::{Lookout, Meeting, Obstacle, leavings};
 use psmrt::scene::Scene;
 
@@ -73,7 +70,7 @@ fn a_towed_sphere_stops_the_run_at_the_step_at_which_it_is_in_the_wall() {
     assert!(table.lines().last().unwrap().contains(",60,0,"), "{table}");
     // The same is told beforehand, and the remedy works.
     let checked = psmrt(&["check", path.to_str().unwrap()]);
-    let told = cli::stdout(&checked);
+    let told = stdout(&checked);
     assert!(told.contains("after step 70") && told.contains("the run stops there"), "{told}");
     budget.spend(69 * 2304);
     let output = run(&["--set", "stop.steps=69"], &folder.path("again"));

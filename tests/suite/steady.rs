@@ -1,12 +1,10 @@
 //! `stop.steady`: a run ends when its value is within the tolerance of the final one, however often rows are
 //! taken.
 
-mod common;
-
 use std::f64::consts::PI;
 use std::path::Path;
 
-use common::Budget;
+use crate::common::Budget;
 use psmrt::checkpoint;
 use psmrt::engine::{Engine, ReferenceEngine};
 use psmrt::output::folder::RunFolder;

@@ -35,7 +35,7 @@ fn declared(call: &str) -> u64 {
                 Ok(updates) => sum += updates,
                 // Its own definition, and this file.
                 Err(_) => assert!(
-                    path.ends_with("tests/common/mod.rs") || path.ends_with("tests/tidy.rs"),
+                    path.ends_with("tests/common/mod.rs") || path.ends_with("tests/suite/tidy.rs"),
                     "{}: declare the budget as a literal, not {literal:?}",
                     path.display()
                 ),
@@ -56,25 +56,38 @@ fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
 }
 
 #[test]
-fn proofs_of_the_oracle_alone_are_run_with_its_package() {
-    let all = text(&files("tests/oracle", &["all.rs"])[0]);
-    for path in files("tests/oracle", &[".rs"]).iter().filter(|path| !path.ends_with("all.rs")) {
-        let name = path.file_stem().unwrap().to_str().unwrap();
-        let listed = all.lines().any(|line| line == format!("mod {name};"));
-        assert!(
-            listed,
-            "tests/oracle/{name}.rs is not among the modules of all.rs: nothing runs it"
-        );
+fn every_file_of_tests_is_among_the_modules_of_its_binary() {
+    for (folder, top) in [("oracle", "all.rs"), ("suite", "main.rs"), ("device", "main.rs")] {
+        let folder = format!("tests/{folder}");
+        let modules = text(&files(&folder, &[top])[0]);
+        for path in files(&folder, &[".rs"]) {
+            let beside_top = path.parent().is_some_and(|parent| parent.ends_with(&folder));
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            let listed = modules.lines().any(|line| line == format!("mod {name};"));
+            assert!(
+                listed || !beside_top || path.ends_with(top),
+                "{} is not among the modules of {folder}/{top}: nothing runs it",
+                path.display()
+            );
+        }
     }
-    for path in files("tests", &[".rs"]) {
-        let at_top = path.parent().is_some_and(|folder| folder.ends_with("tests"));
-        let words = ["psmrt::", "CARGO_BIN_EXE", "mod cli;", "mod parity;"];
-        let text = text(&path);
-        assert!(
-            !at_top || words.iter().any(|word| text.contains(word)),
-            "{}: nothing but the reference is tested here, so it belongs into tests/oracle",
-            path.display()
-        );
+}
+
+#[test]
+fn proofs_of_the_oracle_alone_are_run_with_its_package() {
+    let words = ["psmrt::", "CARGO_BIN_EXE", "crate::cli", "crate::edges", "crate::parity"];
+    for folder in ["tests/suite", "tests/device"] {
+        for path in files(folder, &[".rs"]) {
+            let in_folder = path.parent().is_some_and(|parent| parent.ends_with(folder));
+            let text = text(&path);
+            assert!(
+                !in_folder
+                    || path.ends_with("main.rs")
+                    || words.iter().any(|word| text.contains(word)),
+                "{}: nothing but the reference is tested here, so it belongs into tests/oracle",
+                path.display()
+            );
+        }
     }
 }
 

@@ -23,14 +23,27 @@ pub type Claim = (&'static str, fn());
 
 /// Runs the trials.
 pub fn run(claims: &[Claim]) -> ExitCode {
+    let arguments = arguments();
+    let trials = on_device(&arguments, None, claims);
+    libtest_mimic::run(&arguments, trials).exit_code()
+}
+
+/// The arguments of the command line, and one trial at a time unless they say otherwise: a software adapter uses
+/// all cores by itself, and a shared one is shared by all trials.
+pub fn arguments() -> Arguments {
     let mut arguments = Arguments::from_args();
-    // A software adapter uses all cores by itself, and a shared one is shared by all trials.
     arguments.test_threads.get_or_insert(1);
+    arguments
+}
+
+/// The trials of a file, whose name comes before theirs.
+pub fn on_device(arguments: &Arguments, file: Option<&str>, claims: &[Claim]) -> Vec<Trial> {
     let required = std::env::var("PSMRT_REQUIRE_GPU").is_ok_and(|value| value == "1");
     let device = if arguments.list { Ok(()) } else { gpu().map(|_| ()) };
-    let trials = claims
-        .iter()
-        .map(|&(name, claim)| match &device {
+    let named = |claim: &str| file.map_or(claim.to_owned(), |file| format!("{file}::{claim}"));
+    let trials = claims.iter().map(|&(name, claim)| (named(name), claim));
+    trials
+        .map(|(name, claim)| match &device {
             Ok(()) => Trial::test(name, move || {
                 claim();
                 Ok(())
@@ -43,8 +56,7 @@ pub fn run(claims: &[Claim]) -> ExitCode {
                 .with_kind("NOT RUN: no adapter")
                 .with_ignored_flag(true),
         })
-        .collect();
-    libtest_mimic::run(&arguments, trials).exit_code()
+        .collect()
 }
 
 impl Budget {

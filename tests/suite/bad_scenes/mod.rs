@@ -1,7 +1,5 @@
 //! Wrong scenes, and the right one that they differ from.
 
-#![allow(dead_code, reason = "each test file is a crate of its own and uses a part of this")]
-
 /// A scene that runs: each wrong one differs from it in one place.
 pub const GOOD: &str = include_str!("good.toml");
 

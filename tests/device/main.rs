@@ -1,0 +1,44 @@
+//! All trials that need a device, Python or C, as one binary: `cargo test --test device kernel_runs::` runs those
+//! of a file. Where what they need is missing they are listed as ignored, with the reason, or fail if
+//! `PSMRT_REQUIRE_GPU=1` or `PSMRT_REQUIRE_PYTHON=1` asks for it.
+
+#[path = "../cli/mod.rs"]
+mod cli;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../conformance/mod.rs"]
+mod conformance;
+#[path = "../edges/mod.rs"]
+mod edges;
+#[path = "../parity/mod.rs"]
+mod parity;
+#[path = "../trials/mod.rs"]
+mod trials;
+
+mod conformance_candidates;
+mod kernel_conformance;
+mod kernel_engine;
+mod kernel_extremes;
+mod kernel_fractions;
+mod kernel_parity;
+mod kernel_physics;
+mod kernel_runs;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = trials::arguments();
+    let mut all = conformance_candidates::trials();
+    for (file, claims) in [
+        ("kernel_conformance", kernel_conformance::CLAIMS),
+        ("kernel_engine", kernel_engine::CLAIMS),
+        ("kernel_extremes", kernel_extremes::CLAIMS),
+        ("kernel_fractions", kernel_fractions::CLAIMS),
+        ("kernel_parity", kernel_parity::CLAIMS),
+        ("kernel_physics", kernel_physics::CLAIMS),
+        ("kernel_runs", kernel_runs::CLAIMS),
+    ] {
+        all.extend(trials::on_device(&arguments, Some(file), claims));
+    }
+    libtest_mimic::run(&arguments, all).exit_code()
+}

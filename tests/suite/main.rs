@@ -1,0 +1,44 @@
+//! All tests that need no device and no other language, as one binary: `cargo test --test suite scene_lists::`
+//! runs those of a file.
+//!
+//! They run side by side in one process, so none changes its environment or its working directory; the
+//! program is run as a process of its own, in a folder of the test's own (`cli::Folder`).
+
+#[path = "../cli/mod.rs"]
+mod cli;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../edges/mod.rs"]
+mod edges;
+
+mod bad_scenes;
+mod cli_folder;
+mod cli_info;
+mod cli_memory;
+mod cli_pack;
+mod cli_prints;
+mod cli_resume;
+mod cli_resume_refused;
+mod cli_run;
+mod conformance_files;
+mod conformance_oracle;
+mod exact_text;
+mod extremes;
+mod kernel_coverage;
+mod plan;
+mod predictions;
+mod records;
+mod scene_bad_input;
+mod scene_check;
+mod scene_contacts;
+mod scene_free;
+mod scene_gravity;
+mod scene_lists;
+mod scene_mutations;
+mod scene_open_faces;
+mod scene_outputs;
+mod scene_overlaps;
+mod scene_remedies;
+mod scene_ways;
+mod steady;
+mod tidy;
