@@ -1,0 +1,103 @@
+//! Values of single grains, laws and contacts against the textbook's formulas, with numbers at which no two
+//! terms are alike: radii, masses and times other than 1.
+
+use psmrt_reference::grains::contact::{Geometry, Motion, Relative, contact_force};
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::law::ContactLaw;
+use psmrt_reference::lattice::Vec3;
+use std::f64::consts::PI;
+
+/// Errors of a few operations in double precision, relative.
+const ROUNDING: f64 = 1e-15;
+
+/// Asserts that two numbers agree to rounding.
+fn assert_same(what: &str, found: f64, expected: f64) {
+    assert!(
+        (found - expected).abs() <= 8.0 * ROUNDING * expected.abs(),
+        "{what}: {found}, where the formula gives {expected}"
+    );
+}
+
+#[test]
+fn a_sphere_has_the_volume_mass_inertia_and_energy_of_the_textbook() {
+    // R = 3, ρ = 2: V = 4/3 π 27 = 36 π, m = 72 π, I = 2/5 m 9
+    assert_same("volume of a sphere of radius 3", sphere_volume(3.0), 36.0 * PI);
+    let sphere = Grain::sphere(Vec3::zeros(), 3.0, 2.0)
+        .moving(Vec3::new(0.0, 3.0, 4.0))
+        .spinning(Vec3::new(2.0, 0.0, 0.0));
+    assert_same("its mass at density 2", sphere.mass, 72.0 * PI);
+    assert_same("its moment of inertia", sphere.inertia, 259.2 * PI);
+    // (m 25 + I 4)/2
+    assert_same("its kinetic energy", sphere.kinetic_energy(), (900.0 + 518.4) * PI);
+}
+
+#[test]
+fn friction_and_rolling_have_two_sevenths_and_two_fifths_of_stiffness_and_damping() {
+    let law = ContactLaw::new(21.0, 35.0).unwrap().with_friction(0.3).unwrap();
+    let friction = law.friction.unwrap();
+    assert_same("tangential stiffness", friction.stiffness, 6.0);
+    assert_same("tangential damping", friction.damping, 10.0);
+    let rolling = law.with_rolling(0.1).unwrap().rolling.unwrap();
+    assert_same("rolling stiffness", rolling.stiffness, 8.4);
+    assert_same("rolling damping", rolling.damping, 14.0);
+}
+
+#[test]
+fn the_shortest_time_is_that_of_the_fastest_spring_or_dashpot() {
+    let (mass, stiff) = (3.0, 7.0);
+    let undamped = ContactLaw::new(stiff, 0.0).unwrap();
+    // t_c = π √(m/k)
+    assert_same("undamped contact", undamped.shortest_time(mass), PI * (mass / stiff).sqrt());
+    let with =
+        |stiffness: f64, damping: f64| {
+            let law = undamped.with_friction(0.5).unwrap().with_rolling(0.1).unwrap();
+            let mut friction = law;
+            friction.rolling = None;
+            friction.friction = friction
+                .friction
+                .map(|it| psmrt_reference::grains::law::Friction { stiffness, damping, ..it });
+            let mut rolling = law;
+            rolling.friction = None;
+            rolling.rolling = rolling.rolling.map(|it| psmrt_reference::grains::law::Rolling {
+                stiffness,
+                damping,
+                ..it
+            });
+            [friction.shortest_time(mass), rolling.shortest_time(mass)]
+        };
+    // A tangential spring a hundred times as stiff: π √((2/7) m/k); rolling: π √((2/5) m/k).
+    let [tangential, rolling] = with(100.0 * stiff, 0.0);
+    assert_same("stiff tangential spring", tangential, PI * (2.0 * mass / 7.0 / 700.0).sqrt());
+    assert_same("stiff rolling spring", rolling, PI * (0.4 * mass / 700.0).sqrt());
+    // Dashpots that stop a body in m/γ: five times that, with 2/7 and 2/5 of the mass.
+    let [tangential, rolling] = with(0.01, 100.0);
+    assert_same("strong tangential dashpot", tangential, 5.0 * 2.0 * mass / 7.0 / 100.0);
+    assert_same("strong rolling dashpot", rolling, 5.0 * 0.4 * mass / 100.0);
+}
+
+#[test]
+fn couple_of_a_new_rolling_contact_is_spring_and_dashpot_times_the_square_of_the_radius() {
+    // Radii 2 and 6: R_r = 12/8 = 1.5. Centres 7.5 apart: overlap 0.5. They approach at 4 during 0.25: of the
+    // sub-step half has passed since they touched (0.5/1), so the dashpots act with weight 1/2 + 1/2 = 1 and the
+    // springs turn for 0.125; with 8 instead of 4 it is a quarter, weight 0.75 and 0.0625.
+    for (speed, elapsed, weight) in [(4.0, 0.125, 1.0), (8.0, 0.0625, 0.75)] {
+        let law = ContactLaw::new(1000.0, 5.0).unwrap().with_rolling(1e6).unwrap();
+        let rolling = law.rolling.unwrap();
+        let geometry = Geometry::of_spheres(&Vec3::new(7.5, 0.0, 0.0), [2.0, 6.0]);
+        let turn = Vec3::new(0.0, 0.3, -0.2);
+        let still = Motion { velocity: Vec3::zeros(), spin: Vec3::zeros() };
+        let moving = Motion { velocity: Vec3::new(speed, 0.0, 0.0), spin: turn };
+        let relative = Relative::new(&geometry, [&moving, &still]);
+        let pair = contact_force(&law, &geometry, [&relative, &relative], 0.25, &mut None).unwrap();
+        // M = -R_r² (k_r θ + γ_r ω w), and the arms turn nothing, since the force is along the normal
+        let couple = -2.25 * (rolling.stiffness * elapsed + rolling.damping * weight) * turn;
+        assert!(
+            (pair.torques[0] - couple).norm() < 1e-12 * couple.norm(),
+            "approach at {speed}: couple {:?}, where R² (k θ + γ ω w) is {couple:?}",
+            pair.torques[0]
+        );
+        // F_n = k δ + γ u w
+        let force = 1000.0 * 0.5 + 5.0 * weight * speed;
+        assert_same("normal force", -pair.force.x, force);
+    }
+}
