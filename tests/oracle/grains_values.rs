@@ -3,7 +3,8 @@
 
 use psmrt_reference::grains::contact::{Geometry, Motion, Relative, contact_force};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
-use psmrt_reference::grains::law::ContactLaw;
+use psmrt_reference::grains::law::{ContactLaw, damping_ratio};
+use psmrt_reference::grains::lubrication::Lubrication;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
@@ -100,4 +101,26 @@ fn couple_of_a_new_rolling_contact_is_spring_and_dashpot_times_the_square_of_the
         let force = 1000.0 * 0.5 + 5.0 * weight * speed;
         assert_same("normal force", -pair.force.x, force);
     }
+}
+
+#[test]
+fn restitution_1_is_no_damping_at_all() {
+    assert_eq!(damping_ratio(1.0), 0.0, "damping ratio of an elastic impact");
+}
+
+#[test]
+fn lubrication_between_unequal_spheres_is_jeffrey_s_whichever_is_first() {
+    // Jeffrey & Onishi, J. Fluid Mech. 139, 261 (1984), with both radii written out; the leading term is that of
+    // Derjaguin's radius a₁ a₂/(a₁ + a₂):
+    //   F/u = 6π μ [(a₁ a₂/(a₁ + a₂))² (1/h - 1/h_c) + a₁ a₂ (a₁² + 7 a₁ a₂ + a₂²)/(5 (a₁ + a₂)³) ln(h_c/h)]
+    let law =
+        Lubrication { viscosity: 0.7, cutoff_gap: 0.5, smallest_gap: 0.01 }.checked().unwrap();
+    let (a1, a2, h) = (1.5_f64, 4.0_f64, 0.125_f64);
+    let (product, sum) = (a1 * a2, a1 + a2);
+    let squeezed = (product / sum).powi(2) * (1.0 / h - 1.0 / 0.5);
+    let logarithmic =
+        product * (a1 * a1 + 7.0 * product + a2 * a2) / (5.0 * sum.powi(3)) * 4.0_f64.ln();
+    let expected = 6.0 * PI * 0.7 * (squeezed + logarithmic);
+    assert_same("radii 1.5 and 4", law.between_spheres(h, [a1, a2]), expected);
+    assert_same("radii 4 and 1.5", law.between_spheres(h, [a2, a1]), expected);
 }
