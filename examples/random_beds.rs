@@ -6,12 +6,13 @@
 //! and B are free, and p = 2.85 as ordered arrays have it. Exponents 2 and 4 say how much hangs on that.
 //! Writes `golden/tradeoff/random_drag.csv` anew; some minutes on a core.
 
+use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::fmt::Write;
 use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
-use psmrt::tradeoff::knobs::{CollisionKnob, Flow, Knobs};
+use psmrt::tradeoff::knobs::{Flow, Knobs};
 use psmrt::tradeoff::measure::Runner;
 
 const FILE: &str = "golden/tradeoff/random_drag.csv";
@@ -31,8 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut runs = Vec::new();
         for cells in GRIDS {
             for tau in TAUS {
-                let knobs =
-                    Knobs::new(Flow::Random, fraction, cells, tau, CollisionKnob::Dhumieres);
+                let knobs = Knobs::new(Flow::Random, fraction, cells, tau, Preset::DHumieres);
                 let row = runner.measure(&knobs)?;
                 let d = knobs.cells_per_diameter().ok_or("spheres have a diameter")?;
                 // Under a given force U goes with 1/K; the error is that against the drag of the file.

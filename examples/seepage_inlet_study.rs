@@ -8,6 +8,7 @@
 //! cargo run --release --example seepage_inlet_study
 //! ```
 
+use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
 
@@ -15,6 +16,7 @@ use psmrt::cases::{Bench, CaseError, Study};
 use psmrt::engine::EngineName;
 use psmrt::kernel::Gpu;
 use psmrt::run::{End, RunError};
+use psmrt::scene::preset_changes;
 
 const STUDY: &str = "golden/seepage/inlet.csv";
 
@@ -39,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             if bench.engine_name() == EngineName::Reference && tau < 0.6 {
                 continue;
             }
-            for collision in ["srt", "mrt"] {
+            for collision in [Preset::Srt, Preset::DHumieres] {
                 for &reynolds in numbers {
                     add(&mut bench, collision, tau, reynolds)?;
                 }
@@ -49,8 +51,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn add(bench: &mut Bench, collision: &str, tau: f64, reynolds: f64) -> Result<(), Box<dyn Error>> {
-    let mut row = format!("{},{collision},{tau},{reynolds},", bench.engine_name().word());
+fn add(
+    bench: &mut Bench,
+    collision: Preset,
+    tau: f64,
+    reynolds: f64,
+) -> Result<(), Box<dyn Error>> {
+    let mut row = format!("{},{},{tau},{reynolds},", bench.engine_name().word(), collision.word());
     let study = Study::new(STUDY);
     if study.row(&row)?.is_some() {
         return Ok(());
@@ -62,9 +69,7 @@ fn add(bench: &mut Bench, collision: &str, tau: f64, reynolds: f64) -> Result<()
         format!("faces.z_low.velocity={vector}"),
         format!("initial.velocity={vector}"),
     ];
-    if collision == "srt" {
-        changes.push("collision.model=\"srt\"".to_owned());
-    }
+    changes.extend(preset_changes(collision));
     let lattice = reynolds * (tau - 0.5) / 3.0 * FRACTION / 8.0;
     row += &match bench.run("seepage/inlet.toml", &changes) {
         Err(CaseError::Run(RunError::Stopped(why))) => {

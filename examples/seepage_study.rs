@@ -8,6 +8,7 @@
 //! cargo run --release --example seepage_study [stability]
 //! ```
 
+use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
 
@@ -19,7 +20,7 @@ const STABILITY: &str = "golden/seepage/stability.csv";
 
 /// A bed of 31 spheres at 8 cells per diameter and tau = 0.51.
 const BED: Bed = Bed {
-    collision: "mrt",
+    collision: Preset::DHumieres,
     weighting: "noble_torczynski",
     packing: Packing::Random { side: 3.0, count: 31, seed: 1 },
     reynolds: 1.0,
@@ -83,7 +84,7 @@ fn grids(taus: &[f64], ordered: &[u32], random: &[u32]) -> Vec<Bed> {
 fn oracle_runs() -> Vec<Bed> {
     let mut runs = Vec::new();
     // Reynolds numbers.
-    for collision in ["mrt", "srt"] {
+    for collision in [Preset::DHumieres, Preset::Srt] {
         for reynolds in [0.1, 1.0, 3.0, 10.0, 30.0, 60.0, 100.0] {
             runs.push(Bed { collision, reynolds, ..BED });
         }
@@ -92,7 +93,7 @@ fn oracle_runs() -> Vec<Bed> {
     for tau in [0.503, 0.505, 0.52, 0.55, 0.6, 0.8, 1.0] {
         // Beds that leak or let little through approach their flow in many small steps.
         let tolerance = if tau < 0.6 { BED.tolerance } else { CREEPING };
-        for collision in ["mrt", "srt"] {
+        for collision in [Preset::DHumieres, Preset::Srt] {
             runs.push(Bed { collision, tau, tolerance, ..BED });
         }
         if tau != 0.505 {
@@ -140,28 +141,28 @@ fn stability() -> Result<(), Box<dyn Error>> {
     let mut oracle = Bench::new(Path::new("golden"), None, |_| {});
     let mut kernel = Bench::new(Path::new("golden"), Some(Gpu::open(None)?), |_| {});
     for (tau, collisions) in [
-        (0.6, &["srt", "mrt", "magic"] as &[&'static str]),
-        (0.55, &["srt", "mrt", "magic"]),
-        (0.53, &["srt", "mrt", "magic"]),
-        (0.51, &["srt", "mrt", "magic"]),
-        (0.505, &["srt", "mrt", "magic"]),
+        (0.6, &[Preset::Srt, Preset::DHumieres, Preset::Trt] as &[Preset]),
+        (0.55, &[Preset::Srt, Preset::DHumieres, Preset::Trt]),
+        (0.53, &[Preset::Srt, Preset::DHumieres, Preset::Trt]),
+        (0.51, &[Preset::Srt, Preset::DHumieres, Preset::Trt]),
+        (0.505, &[Preset::Srt, Preset::DHumieres, Preset::Trt]),
     ] {
         for weighting in ["noble_torczynski", "solid_fraction"] {
             for &collision in collisions {
                 let bed = Bed { collision, weighting, tau, ..SMALL };
                 climb(&mut oracle, bed)?;
-                if weighting == "noble_torczynski" && collision != "magic" && tau < 0.52 {
+                if weighting == "noble_torczynski" && collision != Preset::Trt && tau < 0.52 {
                     climb(&mut kernel, bed)?;
                 }
             }
         }
     }
-    for collision in ["srt", "mrt"] {
+    for collision in [Preset::Srt, Preset::DHumieres] {
         climb(&mut kernel, Bed { collision, tau: 0.501, ..SMALL })?;
     }
     // As fine as the paper's bed.
     for tau in [0.51, 0.505] {
-        for collision in ["srt", "mrt"] {
+        for collision in [Preset::Srt, Preset::DHumieres] {
             climb(&mut kernel, Bed { collision, tau, side_cells: 32, ..SMALL })?;
         }
     }

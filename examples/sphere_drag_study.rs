@@ -9,6 +9,7 @@
 //! cargo run --release --example sphere_drag_study
 //! ```
 
+use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
 
@@ -30,8 +31,14 @@ const STREAMS: [(f64, f64); 7] = [
 ];
 
 /// In the paper's box.
-const PAPER: Stream =
-    Stream { collision: "mrt", reynolds: 0.1, cells: 6, tau: 0.7, width: 5.0, tolerance: 3e-5 };
+const PAPER: Stream = Stream {
+    collision: Preset::DHumieres,
+    reynolds: 0.1,
+    cells: 6,
+    tau: 0.7,
+    width: 5.0,
+    tolerance: 3e-5,
+};
 
 fn main() -> Result<(), Box<dyn Error>> {
     add_rows(&mut Bench::new(Path::new("golden"), None, |_| {}), &oracle_runs())?;
@@ -54,7 +61,7 @@ fn add_rows(bench: &mut Bench, runs: &[Stream]) -> Result<(), Box<dyn Error>> {
 }
 
 /// In the paper's box, each Reynolds number at its relaxation time.
-fn grid(cells: u32, collision: &'static str, streams: &[(f64, f64)]) -> Vec<Stream> {
+fn grid(cells: u32, collision: Preset, streams: &[(f64, f64)]) -> Vec<Stream> {
     let tolerance = if cells < 12 { 3e-5 } else { 1e-4 };
     let one = |&(reynolds, tau)| Stream { collision, reynolds, cells, tau, tolerance, ..PAPER };
     streams.iter().map(one).collect()
@@ -69,10 +76,10 @@ fn widths((reynolds, tau): (f64, f64), cells: u32, widths: &[f64]) -> Vec<Stream
 /// The oracle's runs, the cheap ones first.
 fn oracle_runs() -> Vec<Stream> {
     let mut runs = Vec::new();
-    runs.extend(grid(4, "mrt", &STREAMS[..3]));
-    runs.extend(grid(6, "mrt", &STREAMS));
-    runs.extend(grid(6, "srt", &STREAMS));
-    runs.extend(grid(8, "mrt", &[STREAMS[0], STREAMS[1], STREAMS[2], STREAMS[5]]));
+    runs.extend(grid(4, Preset::DHumieres, &STREAMS[..3]));
+    runs.extend(grid(6, Preset::DHumieres, &STREAMS));
+    runs.extend(grid(6, Preset::Srt, &STREAMS));
+    runs.extend(grid(8, Preset::DHumieres, &[STREAMS[0], STREAMS[1], STREAMS[2], STREAMS[5]]));
     for stream in [STREAMS[2], STREAMS[0], STREAMS[1]] {
         runs.extend(widths(stream, 4, &[4.0, 6.0, 8.0, 10.0]));
     }
@@ -80,7 +87,7 @@ fn oracle_runs() -> Vec<Stream> {
     runs.extend(widths(STREAMS[5], 6, &[4.0, 6.0, 8.0, 10.0]));
     // How much the relaxation time matters.
     for tau in [1.5, 1.0, 0.8, 0.7, 0.6, 0.55] {
-        for collision in ["mrt", "srt"] {
+        for collision in [Preset::DHumieres, Preset::Srt] {
             runs.push(Stream { tau, collision, cells: 4, tolerance: 3e-6, ..PAPER });
         }
     }
@@ -90,18 +97,18 @@ fn oracle_runs() -> Vec<Stream> {
 /// The kernel's runs: finer grids, wider boxes; the first two are the oracle's too.
 fn kernel_runs() -> Vec<Stream> {
     let mut runs = Vec::new();
-    runs.extend(grid(8, "mrt", &[STREAMS[2]]));
+    runs.extend(grid(8, Preset::DHumieres, &[STREAMS[2]]));
     runs.extend(widths(STREAMS[5], 6, &[8.0]));
-    runs.extend(grid(12, "mrt", &[STREAMS[5], STREAMS[0], STREAMS[2], STREAMS[1]]));
+    runs.extend(grid(12, Preset::DHumieres, &[STREAMS[5], STREAMS[0], STREAMS[2], STREAMS[1]]));
     runs.extend(widths(STREAMS[1], 4, &[12.0, 16.0]));
-    runs.extend(grid(8, "mrt", &[STREAMS[3], STREAMS[4], STREAMS[6]]));
-    runs.extend(grid(16, "mrt", &[STREAMS[5]]));
-    runs.extend(grid(12, "mrt", &[STREAMS[6]]));
-    runs.extend(grid(16, "mrt", &[STREAMS[0], STREAMS[2], STREAMS[1]]));
+    runs.extend(grid(8, Preset::DHumieres, &[STREAMS[3], STREAMS[4], STREAMS[6]]));
+    runs.extend(grid(16, Preset::DHumieres, &[STREAMS[5]]));
+    runs.extend(grid(12, Preset::DHumieres, &[STREAMS[6]]));
+    runs.extend(grid(16, Preset::DHumieres, &[STREAMS[0], STREAMS[2], STREAMS[1]]));
     runs.extend(widths(STREAMS[1], 4, &[20.0]));
     // Re = 100 further from tau = 1/2, and so faster in cells per step.
-    let fast = |cells: u32, tau: f64| grid(cells, "mrt", &[(100.0, tau)]);
+    let fast = |cells: u32, tau: f64| grid(cells, Preset::DHumieres, &[(100.0, tau)]);
     runs.extend([fast(8, 0.53), fast(12, 0.53), fast(12, 0.5075)].concat());
-    runs.extend(grid(8, "srt", &STREAMS[2..]));
+    runs.extend(grid(8, Preset::Srt, &STREAMS[2..]));
     runs
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use psmrt::estimate::warnings;
 use psmrt::scene::Scene;
-use psmrt::stability::Model;
 use psmrt::stability::limits::Measured;
+use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::Weighting;
 
 /// The warnings of a scene that speak of the maps.
@@ -84,8 +84,8 @@ fn limits_fall_towards_tau_one_half_and_mrt_goes_further_than_srt() {
     for measured in [Measured::Fluid, Measured::Bed(Weighting::NobleTorczynski)] {
         let mut last = 0.0;
         for tau in [0.5002, 0.505, 0.52, 0.6] {
-            let srt = measured.limit_of(Model::Srt, tau).unwrap().lives;
-            let mrt = measured.limit_of(Model::DHumieres, tau).unwrap().lives;
+            let srt = measured.limit_of(Preset::Srt, tau).unwrap().lives;
+            let mrt = measured.limit_of(Preset::DHumieres, tau).unwrap().lives;
             assert!(srt >= last, "{measured:?} at {tau}: {srt} after {last}");
             // Two steps of the tried velocities where it matters; never less.
             let least = if tau < 0.501 { 2.0 } else { 1.0 };
@@ -94,5 +94,5 @@ fn limits_fall_towards_tau_one_half_and_mrt_goes_further_than_srt() {
         }
     }
     // Where nothing was measured nothing is said.
-    assert_eq!(Measured::Fluid.limit_of(Model::Srt, 7.0), None);
+    assert_eq!(Measured::Fluid.limit_of(Preset::Srt, 7.0), None);
 }

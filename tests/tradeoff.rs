@@ -13,7 +13,7 @@ use psmrt::tradeoff::evidence::{
     GrainPoint, SolidKnob, committed_sweep, grain_points, wall_points,
 };
 use psmrt::tradeoff::front::front;
-use psmrt::tradeoff::knobs::{CollisionKnob, Flow, Knobs, Storage};
+use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
 use psmrt::tradeoff::measure::Runner;
 use psmrt::tradeoff::model::{GrainModel, Models};
 use psmrt::tradeoff::model_eps::EpsModel;
@@ -22,6 +22,7 @@ use psmrt::tradeoff::storage::half;
 use psmrt::tradeoff::sweep::runs;
 use psmrt::tradeoff::tables;
 use psmrt::tradeoff::trial::{committed_results, score, trials};
+use psmrt_reference::collision::Preset;
 use psmrt_report::render_svg;
 use std::fs;
 use std::path::Path;
@@ -40,7 +41,7 @@ fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
                     solid: SolidKnob::Usual,
                     geometry: geometry.to_owned(),
                     source: "synthetic",
-                    collision: CollisionKnob::Dhumieres,
+                    collision: Preset::DHumieres,
                     cells,
                     tau,
                     drag,
@@ -53,7 +54,7 @@ fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
 }
 
 fn fitted(points: &[GrainPoint]) -> Option<GrainModel> {
-    GrainModel::fit(CollisionKnob::Dhumieres, SolidKnob::Usual, points)
+    GrainModel::fit(Preset::DHumieres, SolidKnob::Usual, points)
 }
 
 #[test]
@@ -239,7 +240,7 @@ fn unshifted_single_precision_loses_digits_as_the_flow_slows_and_shifted_does_no
     let mut runner = Runner::new(Path::new(GOLDEN), None).unwrap();
     let mut lost = |storage, lattice_velocity| {
         let mut error = |storage| {
-            let usual = Knobs::new(Flow::Sc, "0.2", 8, 0.8, CollisionKnob::Dhumieres);
+            let usual = Knobs::new(Flow::Sc, "0.2", 8, 0.8, Preset::DHumieres);
             let knobs = Knobs { storage, lattice_velocity, ..usual };
             measured(&mut runner, &knobs, &mut budget).error.unwrap()
         };
@@ -306,7 +307,7 @@ fn bands_are_narrow_and_hold() {
     assert_eq!(models.grains.len(), 4);
     for model in &models.grains {
         // Wider ones would be no help in choosing a grid: from 8 to 12 cells an error falls by 2.25.
-        assert!(model.band() < 1.5, "{}: {}", model.collision.words(), model.band());
+        assert!(model.band() < 1.5, "{}: {}", model.collision.title(), model.band());
     }
     let trials = trials(&models, &committed_results().unwrap()).unwrap();
     // Bands are made to hold 95 %; 90 % is the aim. Those that bands were widened after count by themselves.

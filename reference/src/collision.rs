@@ -62,7 +62,7 @@ impl Preset {
     pub const MAGIC: f64 = 3.0 / 16.0;
 
     /// As tables spell it.
-    pub fn word(self) -> &'static str {
+    pub const fn word(self) -> &'static str {
         match self {
             Preset::Srt => "SRT",
             Preset::DHumieres => "MRT_dHumieres",

@@ -57,7 +57,7 @@ fn points(
 const SC: [(&str, &str); 3] =
     [("lattice", "SC"), ("solid_fraction", "0.06544984695"), ("shift", "quarter")];
 const RULES: [(&str, &str); 3] =
-    [("SRT", "SRT"), ("MRT_dHumieres", "MRT d'Humières"), ("TRT_3/16", "MRT magic 3/16")];
+    [("SRT", "SRT"), ("MRT_dHumieres", "MRT d'Humières"), ("TRT_3/16", "TRT 3/16")];
 const WEIGHTS: [(&str, &str); 2] = [("NT", "B(ε, τ)"), ("eps", "B = ε")];
 
 /// Error of the drag of a simple-cubic array at 8 cells per diameter against the relaxation time.

@@ -222,17 +222,6 @@ fn limiting_key(scene: &Scene) -> &'static str {
     if is_steps { "stop.steps" } else { "stop.time" }
 }
 
-/// What a scene is changed by to collide with `mrt` (d'Humieres' rates), `srt` or `magic` (two rates,
-/// Lambda = 3/16).
-pub fn collision_changes(word: &str) -> Vec<String> {
-    let changes: &[&str] = match word {
-        "srt" => &["collision.model=\"srt\""],
-        "magic" => &["collision.rates=\"magic\"", "collision.magic=0.1875"],
-        _ => &[],
-    };
-    changes.iter().map(|&change| change.to_owned()).collect()
-}
-
 /// The folder of a run: the same for the same scene with the same changes.
 fn run_name(scene: &Scene) -> String {
     format!("{:016x}", xxhash_rust::xxh3::xxh3_64(scene.text.as_bytes()))

@@ -1,12 +1,13 @@
 //! Flow in a square duct, against its series.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, PowerLaw};
 
-use super::bench::collision_changes;
 use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden};
 use crate::engine::EngineName;
 use crate::table::Table;
+use crate::scene::preset_changes;
 
 /// Flow in a square duct.
 pub const CASE: Case = Case {
@@ -31,7 +32,7 @@ pub const CASE: Case = Case {
 
 const CELLS: [u32; 3] = [8, 12, 16];
 
-const RATES: [&str; 3] = ["magic", "mrt", "srt"];
+const RATES: [Preset; 3] = [Preset::Trt, Preset::DHumieres, Preset::Srt];
 
 /// Width, m, acceleration, m/s2, and viscosity, m2/s, of the scene.
 const SI_WIDTH: f64 = 1e-3;
@@ -55,13 +56,13 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
                 format!("domain.size=[{dx:e}, {SI_WIDTH:e}, {SI_WIDTH:e}]"),
                 format!("stop.steady.tolerance={quiet:e}"),
             ];
-            changes.extend(collision_changes(rates));
+            changes.extend(preset_changes(rates));
             let run = bench.steady("duct/scene.toml", &changes)?;
             let means = run.engine.box_means();
             let mean = means.mass_flux.x / means.density * run.scene.units.si_velocity();
             table.add(vec![
                 bench.engine_name().word().to_owned(),
-                rates.to_owned(),
+                rates.word().to_owned(),
                 cells.to_string(),
                 format!("{:.6e}", mean / si_mean - 1.0),
             ]);
@@ -109,13 +110,13 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     );
     for engine in rows.values("engine")? {
         for (colour, rates) in RATES.into_iter().enumerate() {
-            let own = rows.with(&[("engine", &engine), ("rates", rates)])?;
+            let own = rows.with(&[("engine", &engine), ("rates", rates.word())])?;
             let errors = own.points("cells_across", "error_of_mean")?;
             let errors: Vec<_> = errors.into_iter().map(|(n, error)| (n, error.abs())).collect();
             let name = match rates {
-                "magic" => "Lambda = 3/16",
-                "mrt" => "d'Humieres",
-                _ => "SRT",
+                Preset::Trt => "Lambda = 3/16",
+                Preset::DHumieres => "d'Humieres",
+                Preset::Srt => "SRT",
             };
             if engine == EngineName::Reference.word() {
                 let fit = PowerLaw::fit(&errors)?;

@@ -2,15 +2,17 @@
 
 use std::f64::consts::PI;
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::packing::contacts;
 use psmrt_reference::grains::setup::PeriodicBox;
 use psmrt_reference::lattice::viscosity;
 use psmrt_reference::solids::{Shape, Solid};
 
-use super::bench::{Finished, collision_changes};
+use super::bench::Finished;
 use super::{Bench, CaseError};
 use crate::run::RunError;
+use crate::scene::preset_changes;
 
 /// Diameter, m, and viscosity, m2/s, of the scene.
 const SI_DIAMETER: f64 = 1.6e-4;
@@ -41,7 +43,7 @@ impl Packing {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bed {
     /// Collision: `mrt`, `srt` or `magic`.
-    pub collision: &'static str,
+    pub collision: Preset,
     /// Weight: `noble_torczynski` or `solid_fraction`.
     pub weighting: &'static str,
     /// The spheres.
@@ -91,7 +93,7 @@ impl Bed {
             Packing::Random { side, count, seed } => (format!("random {side}"), count, seed),
             Packing::Fcc => ("fcc".to_owned(), 4, 0),
         };
-        let words = [engine, self.collision, self.weighting, &packing].map(str::to_owned);
+        let words = [engine, self.collision.word(), self.weighting, &packing].map(str::to_owned);
         let numbers = [
             count.to_string(),
             seed.to_string(),
@@ -198,7 +200,7 @@ impl Bed {
             changes.push(format!("grains[0].count={count}"));
             changes.push(format!("grains[0].seed={seed}"));
         }
-        changes.extend(collision_changes(self.collision));
+        changes.extend(preset_changes(self.collision));
         changes
     }
 

@@ -1,14 +1,15 @@
 //! Flow between two plates, against its parabola.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
 
-use super::bench::collision_changes;
 use super::{Bench, Case, CaseError, Claim, Golden, poiseuille_figures};
 use crate::engine::EngineName;
 use crate::exact::Comparison;
 use crate::output::records::profile_rows;
 use crate::scene::check::records::middle;
 use crate::table::Table;
+use crate::scene::preset_changes;
 
 /// Plane Poiseuille flow.
 pub const CASE: Case = Case {
@@ -40,8 +41,11 @@ const FULL_CELLS: [u32; 5] = [8, 16, 32, 64, 128];
 const TAUS: [&str; 3] = ["0.55", "0.8", "1.5"];
 
 /// Rates, and what `bounceback_wall.csv` calls them.
-pub(super) const WALLS: [(&str, &str); 3] =
-    [("magic", "TRT_3/16"), ("mrt", "MRT_dHumieres_1.19_1.4_1.2_1.98"), ("srt", "SRT")];
+pub(super) const WALLS: [(Preset, &str); 3] = [
+    (Preset::Trt, "TRT_3/16"),
+    (Preset::DHumieres, "MRT_dHumieres_1.19_1.4_1.2_1.98"),
+    (Preset::Srt, "SRT"),
+];
 
 /// `u1` to `u8`: velocity of each cell over the largest exact one, on the grid of 8 cells only.
 const COLUMNS: [&str; 15] = [
@@ -64,7 +68,7 @@ const COLUMNS: [&str; 15] = [
 
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     let mut table = Table::new(&COLUMNS);
-    for rates in ["magic", "mrt"] {
+    for rates in [Preset::Trt, Preset::DHumieres] {
         for &cells in if bench.is_full() { &FULL_CELLS[..] } else { &CELLS } {
             table.add(row(bench, rates, "0.8", cells, &[])?);
         }
@@ -82,7 +86,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
 /// One channel.
 fn row(
     bench: &mut Bench,
-    rates: &str,
+    rates: Preset,
     tau: &str,
     cells: u32,
     changes: &[String],
@@ -101,9 +105,9 @@ fn row(
         all.push(format!("records[0].every_steps={}", 500 * (cells / 32).pow(2)));
     }
     // scene.toml has the magic rates already.
-    let scene = if rates == "magic" { "scene.toml" } else { "dhumieres.toml" };
-    if rates == "srt" {
-        all.extend(collision_changes(rates));
+    let scene = if rates == Preset::Trt { "scene.toml" } else { "dhumieres.toml" };
+    if rates == Preset::Srt {
+        all.extend(preset_changes(rates));
     }
     all.extend_from_slice(changes);
     let run = bench.steady(&format!("poiseuille/{scene}"), &all)?;
@@ -120,7 +124,7 @@ fn row(
     let root = (gap * gap + 8.0 * exact.si_viscosity * si_slip / exact.si_acceleration).sqrt();
     let mut row = vec![
         bench.engine_name().word().to_owned(),
-        rates.to_owned(),
+        rates.word().to_owned(),
         tau.to_owned(),
         cells.to_string(),
         format!("{:.6e}", found.relative_l2),
@@ -148,7 +152,7 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
     let walls = golden.table("bounceback_wall.csv")?;
     let mut claims = Vec::new();
     for engine in rows.values("engine")? {
-        let magic = rows.with(&[("engine", &engine), ("rates", "magic")])?;
+        let magic = rows.with(&[("engine", &engine), ("rates", Preset::Trt.word())])?;
         let finest = magic.numbers("cells_across")?.into_iter().fold(0.0, f64::max);
         let magic = magic.numbers("relative_l2")?;
         claims.push(wall_claim(&engine, &walls, rows)?);
@@ -174,7 +178,7 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         });
         let is_oracle = engine == EngineName::Reference.word();
         let seen = |slip: &f64| is_oracle || *slip > KERNEL_SEES;
-        let own = by_grid(rows, &engine, "mrt")?;
+        let own = by_grid(rows, &engine, Preset::DHumieres)?;
         let slips = own.numbers("slip_l2")?;
         let errors = own.points("cells_across", "relative_l2")?.into_iter().zip(&slips);
         let errors: Vec<_> =
@@ -203,8 +207,8 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
 }
 
 /// The rows at tau = 0.8, one a grid: on 8 cells the first, the second being the slow one.
-pub(super) fn by_grid(rows: &Table, engine: &str, rates: &str) -> Result<Table, CaseError> {
-    let own = rows.with(&[("engine", engine), ("rates", rates), ("tau", "0.8")])?;
+pub(super) fn by_grid(rows: &Table, engine: &str, rates: Preset) -> Result<Table, CaseError> {
+    let own = rows.with(&[("engine", engine), ("rates", rates.word()), ("tau", "0.8")])?;
     let mut found = Table { columns: own.columns.clone(), rows: Vec::new() };
     for cells in own.values("cells_across")? {
         let grid = own.with(&[("cells_across", &cells)])?;
@@ -220,12 +224,12 @@ const KERNEL_SEES: f64 = 1e-3;
 pub(super) fn by_tau(
     rows: &Table,
     engine: &str,
-    (rates, name): (&str, &str),
+    (rates, name): (Preset, &str),
     walls: &Table,
 ) -> Result<Vec<(f64, f64, f64)>, CaseError> {
     let mut found = Vec::new();
     for tau in TAUS {
-        let own = rows.with(&[("engine", engine), ("rates", rates), ("tau", tau)])?;
+        let own = rows.with(&[("engine", engine), ("rates", rates.word()), ("tau", tau)])?;
         let here = own.with(&[("cells_across", "8")])?.numbers("wall_outwards")?;
         let known = walls.with(&[("tau", tau), ("collision", name)])?;
         let known = known.number("wall_offset_outward_lattice_units_H8")?;

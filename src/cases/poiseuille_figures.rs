@@ -1,5 +1,6 @@
 //! The figures of Poiseuille flow.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, PowerLaw, Series};
 
 use super::CaseError;
@@ -14,11 +15,11 @@ pub fn all(walls: &Table, rows: &Table) -> Result<Vec<Figure>, CaseError> {
 }
 
 /// What figures call a set of rates.
-fn word(rates: &str) -> &str {
+fn word(rates: Preset) -> &'static str {
     match rates {
-        "magic" => "Lambda = 3/16",
-        "mrt" => "d'Humieres",
-        _ => "SRT",
+        Preset::Trt => "Lambda = 3/16",
+        Preset::DHumieres => "d'Humieres",
+        Preset::Srt => "SRT",
     }
 }
 
@@ -54,7 +55,7 @@ fn profile_figure(walls: &Table, rows: &Table) -> Result<Figure, CaseError> {
         let level = vec![(-out, 100.0 * slip), (8.0 + out, 100.0 * slip)];
         errors.push(Series::dashed(label, level).with_colour(colour));
         for engine in rows.values("engine")? {
-            let own = rows.with(&[("engine", &engine), ("rates", rates), ("tau", TAU)])?;
+            let own = rows.with(&[("engine", &engine), ("rates", rates.word()), ("tau", TAU)])?;
             let own = own.with(&[("cells_across", "8")])?;
             let points = (1..=8).map(|i| Ok((f64::from(i) - 0.5, own.number(&format!("u{i}"))?)));
             let points = points.collect::<Result<Vec<_>, CaseError>>()?;
@@ -71,7 +72,7 @@ fn profile_figure(walls: &Table, rows: &Table) -> Result<Figure, CaseError> {
 
 /// The error against resolution.
 fn error_figure(rows: &Table) -> Result<Figure, CaseError> {
-    let slip = by_grid(rows, &rows.rows[0][0], "mrt")?;
+    let slip = by_grid(rows, &rows.rows[0][0], Preset::DHumieres)?;
     let slip = slip.points("cells_across", "slip_l2")?;
     let grids: Vec<f64> = slip.iter().map(|point| point.0).collect();
     let mut figure = Figure::new(
@@ -80,10 +81,10 @@ fn error_figure(rows: &Table) -> Result<Figure, CaseError> {
         Axis::log("relative L2 error of the velocity"),
     );
     for engine in rows.values("engine")? {
-        for (rates, name) in [("magic", "magic"), ("mrt", "d'Humieres")] {
+        for (rates, name) in [(Preset::Trt, "magic"), (Preset::DHumieres, "d'Humieres")] {
             let points = by_grid(rows, &engine, rates)?.points("cells_across", "relative_l2")?;
             // With magic rates the error is rounding, which has no order.
-            if rates == "mrt" && engine == EngineName::Reference.word() {
+            if rates == Preset::DHumieres && engine == EngineName::Reference.word() {
                 let fit = PowerLaw::fit(&points)?;
                 let label = format!("{name}, {engine}: fit of order {:.2}", -fit.order);
                 figure = figure.with(fit.series(label, (grids[0], grids[grids.len() - 1])));

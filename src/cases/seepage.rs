@@ -1,5 +1,6 @@
 //! Seepage through a packed bed of spheres: the paper's section 6.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::Figure;
 
 use super::packed_bed::FCC_FRACTION;
@@ -58,7 +59,7 @@ pub const CASE: Case = Case {
 
 /// Nine spheres, or the ordered bed, on 16 cells.
 const BED: Bed = Bed {
-    collision: "mrt",
+    collision: Preset::DHumieres,
     weighting: "noble_torczynski",
     packing: Packing::SMALL,
     reynolds: 1.0,
@@ -72,7 +73,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     for reynolds in [1.0, 10.0, 30.0] {
         table.add(Bed { reynolds, ..BED }.row(bench)?);
     }
-    table.add(Bed { collision: "srt", ..BED }.row(bench)?);
+    table.add(Bed { collision: Preset::Srt, ..BED }.row(bench)?);
     table.add(Bed { packing: Packing::Fcc, ..BED }.row(bench)?);
     if bench.is_full() {
         let packing = Packing::Random { side: 3.0, count: 31, seed: 1 };
@@ -109,7 +110,7 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
     for engine in rows.values("engine")? {
         let own = rows.with(&[("engine", &engine)])?;
         let random = own.with(&[("packing", "random 2")])?;
-        let mrt = random.with(&[("collision", "mrt")])?;
+        let mrt = random.with(&[("collision", Preset::DHumieres.word())])?;
         for (reynolds, ratio) in mrt.values("Re_wanted")?.into_iter().zip(over_law(&mrt)?) {
             claims.push(Claim {
                 what: format!("{engine}: 9 spheres, Re about {reynolds}: psi over Beetstra et al."),
@@ -138,7 +139,7 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         };
         claims.push(Claim {
             what: format!("{engine}: 9 spheres, Re about 1: psi with SRT over that with MRT"),
-            measured: slow("srt")? / slow("mrt")?,
+            measured: slow(Preset::Srt.word())? / slow(Preset::DHumieres.word())?,
             allowed: 0.9..=1.1,
             why: "they differ in how the surface errs, 5 to 10 % where a throat is a cell wide",
         });

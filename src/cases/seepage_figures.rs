@@ -1,5 +1,6 @@
 //! The figures of seepage.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::found::found;
@@ -75,11 +76,15 @@ type BedSeries = (Series, Vec<(f64, f64)>);
 fn beds(rows: &Table, study: &Table) -> Result<Vec<BedSeries>, CaseError> {
     let mut all = Vec::new();
     for engine in rows.values("engine")? {
-        let wanted = [("engine", engine.as_str()), ("packing", "random 2"), ("collision", "mrt")];
+        let wanted = [
+            ("engine", engine.as_str()),
+            ("packing", "random 2"),
+            ("collision", Preset::DHumieres.word()),
+        ];
         let series = found("9 spheres, 8 cells", &engine, Vec::new(), Some(BED_LAWS.len()));
         all.push((series, rows.with(&wanted)?));
     }
-    let mrt = steady(study, "mrt")?.with(&[("tau", "0.51")])?;
+    let mrt = steady(study, Preset::DHumieres.word())?.with(&[("tau", "0.51")])?;
     let next = BED_LAWS.len() + 1;
     for (i, (kinds, label)) in [
         (&[("random 3", "8.0000")] as &[_], "31 spheres, 8 cells"),
@@ -96,7 +101,8 @@ fn beds(rows: &Table, study: &Table) -> Result<Vec<BedSeries>, CaseError> {
         }
         all.push((Series::points(label, Vec::new()).with_colour(next + i), own));
     }
-    let srt = steady(study, "srt")?.with(&[("tau", "0.51"), ("packing", "random 3")])?;
+    let srt =
+        steady(study, Preset::Srt.word())?.with(&[("tau", "0.51"), ("packing", "random 3")])?;
     let series = Series::points("31 spheres, 8 cells, SRT", Vec::new()).with_colour(next + 4);
     all.push((series, srt));
     let mut beds = Vec::new();
@@ -146,7 +152,8 @@ fn law_grid_figure(study: &Table) -> Result<Figure, CaseError> {
         Axis::linear("(cell size/diameter)²").range(0.0, 0.0165),
         Axis::linear("psi over Beetstra et al.").range(0.75, 1.15),
     );
-    let bed = steady(study, "mrt")?.with(&[("packing", "random 3"), ("tau", "0.51")])?;
+    let bed = steady(study, Preset::DHumieres.word())?
+        .with(&[("packing", "random 3"), ("tau", "0.51")])?;
     for reynolds in ["1", "10", "30", "100"] {
         let own = bed.with(&[("seed", "1"), ("Re_wanted", reynolds)])?;
         let cells = own.numbers("cells_per_diameter")?.into_iter().map(|d| d.powi(-2));
@@ -166,9 +173,9 @@ fn tau_figure(study: &Table) -> Result<Figure, CaseError> {
         Axis::log("psi Re"),
     );
     for (collision, weighting, label) in [
-        ("mrt", "noble_torczynski", "MRT, B(epsilon, tau)"),
-        ("srt", "noble_torczynski", "SRT, B(epsilon, tau)"),
-        ("mrt", "solid_fraction", "MRT, B = epsilon"),
+        (Preset::DHumieres.word(), "noble_torczynski", "MRT, B(epsilon, tau)"),
+        (Preset::Srt.word(), "noble_torczynski", "SRT, B(epsilon, tau)"),
+        (Preset::DHumieres.word(), "solid_fraction", "MRT, B = epsilon"),
     ] {
         let points = taus(study, collision, weighting)?;
         let points = points.into_iter().map(|(tau, psi_re)| (tau - 0.5, psi_re)).collect();
@@ -189,11 +196,11 @@ fn stability_figure(stability: &Table, inlet: &Table) -> Result<Figure, CaseErro
         Axis::log("Re = U d/(nu (1 - porosity))").range(1.0, 500.0),
     );
     for (collision, weighting, label) in [
-        ("srt", "noble_torczynski", "SRT, B(epsilon, tau)"),
-        ("mrt", "noble_torczynski", "MRT, B(epsilon, tau)"),
-        ("magic", "noble_torczynski", "Lambda = 3/16, B(epsilon, tau)"),
-        ("srt", "solid_fraction", "SRT, B = epsilon"),
-        ("mrt", "solid_fraction", "MRT, B = epsilon"),
+        (Preset::Srt.word(), "noble_torczynski", "SRT, B(epsilon, tau)"),
+        (Preset::DHumieres.word(), "noble_torczynski", "MRT, B(epsilon, tau)"),
+        (Preset::Trt.word(), "noble_torczynski", "Lambda = 3/16, B(epsilon, tau)"),
+        (Preset::Srt.word(), "solid_fraction", "SRT, B = epsilon"),
+        (Preset::DHumieres.word(), "solid_fraction", "MRT, B = epsilon"),
     ] {
         let points = limits(stability, "reference", collision, weighting, "8.0000")?;
         figure = figure.with(Series::line_points(label, points));
@@ -205,7 +212,10 @@ fn stability_figure(stability: &Table, inlet: &Table) -> Result<Figure, CaseErro
         curve.filter(|p| p.1 < 500.0).collect::<Vec<_>>()
     };
     // Rings for SRT, crosses for MRT.
-    let kinds = [("srt", "SRT", Marker::Ring), ("mrt", "MRT", Marker::Cross)];
+    let kinds = [
+        (Preset::Srt.word(), "SRT", Marker::Ring),
+        (Preset::DHumieres.word(), "MRT", Marker::Cross),
+    ];
     for (cells, colours, label) in
         [("8.0000", [0, 1], "single precision"), ("16.0000", [5, 5], "16 cells, single precision")]
     {

@@ -2,6 +2,7 @@
 
 use super::{BED_LAWS, CaseError, Claim};
 use crate::table::Table;
+use psmrt_reference::collision::Preset;
 
 /// Height of the bed of `inlet.toml`, cells, and of the paper's; diameters, cells.
 pub const SMALL: (f64, f64) = (31.0, 8.0);
@@ -74,7 +75,7 @@ pub fn claims(inlet: &Table, paper: &Table) -> Result<Vec<Claim>, CaseError> {
             why: WHY_STILL,
         },
     ];
-    for collision in ["srt", "mrt"] {
+    for collision in [Preset::Srt.word(), Preset::DHumieres.word()] {
         let found = limits(inlet, "wgpu", collision)?.into_iter();
         // Nearer to 1/2 the speed of sound comes first.
         let slow = found.filter(|&(above, _)| above > 0.03);
@@ -96,7 +97,7 @@ pub fn claims(inlet: &Table, paper: &Table) -> Result<Vec<Claim>, CaseError> {
             });
         }
     }
-    for collision in ["srt", "mrt"] {
+    for collision in [Preset::Srt.word(), Preset::DHumieres.word()] {
         let at_0_6 = |engine: &str| {
             let found = limits(inlet, engine, collision)?;
             let own = found.into_iter().find(|(above, _)| (above - 0.1).abs() < 1e-9);

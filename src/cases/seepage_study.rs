@@ -5,6 +5,7 @@ use super::sphere_drag_study::without_grid;
 use super::twins::{twins_claim, without_twins};
 use super::{BED_LAWS, Bed, CaseError, Claim, steadiness};
 use crate::table::Table;
+use psmrt_reference::collision::Preset;
 
 /// What tells a run from all others.
 const RUN: &[&str] = Bed::COLUMNS.split_at(9).0;
@@ -21,7 +22,9 @@ pub fn steady(study: &Table, collision: &str) -> Result<Table, CaseError> {
 /// psi Re against cells per diameter at low Re, MRT.
 pub fn grids(study: &Table, packing: &str, tau: &str) -> Result<Vec<(f64, f64)>, CaseError> {
     let wanted = [("packing", packing), ("tau", tau), ("Re_wanted", "1")];
-    let mut points = steady(study, "mrt")?.with(&wanted)?.points("cells_per_diameter", "psi_Re")?;
+    let mut points = steady(study, Preset::DHumieres.word())?
+        .with(&wanted)?
+        .points("cells_per_diameter", "psi_Re")?;
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     Ok(points)
 }
@@ -51,7 +54,11 @@ pub fn largest_stable(stability: &Table, wanted: &[(&str, &str)]) -> Result<f64,
 /// psi over the law of Beetstra et al. of the beds of this packing at 8 cells per diameter, one Re.
 fn at_8_cells(study: &Table, packing: &str, reynolds: &str) -> Result<Vec<f64>, CaseError> {
     let wanted = [("packing", packing), ("tau", "0.51"), ("cells_per_diameter", "8.0000")];
-    over_law(&steady(study, "mrt")?.with(&wanted)?.with(&[("Re_wanted", reynolds)])?)
+    over_law(
+        &steady(study, Preset::DHumieres.word())?
+            .with(&wanted)?
+            .with(&[("Re_wanted", reynolds)])?,
+    )
 }
 
 fn mean(values: &[f64]) -> f64 {
@@ -88,7 +95,8 @@ fn bed_claims(study: &Table) -> Result<Vec<Claim>, CaseError> {
         });
     }
     // The finest grid, one bed.
-    let fine = steady(study, "mrt")?.with(&[("packing", "random 3"), ("tau", "0.51")])?;
+    let fine = steady(study, Preset::DHumieres.word())?
+        .with(&[("packing", "random 3"), ("tau", "0.51")])?;
     for reynolds in ["1", "10", "30", "100"] {
         let own = fine.with(&[("Re_wanted", reynolds), ("cells_per_diameter", "16.0000")])?;
         claims.push(Claim {
@@ -161,7 +169,7 @@ pub fn claims(study: &Table, stability: &Table, ordered: f64) -> Result<Vec<Clai
         let own = stability.with(&wanted)?;
         largest_stable(&own, &[("weighting", "noble_torczynski")])
     };
-    for collision in ["srt", "mrt"] {
+    for collision in [Preset::Srt.word(), Preset::DHumieres.word()] {
         claims.push(Claim {
             what: format!("stability: largest stable Re with {collision} at tau 0.51"),
             measured: limit(collision, "0.51")?,
@@ -174,7 +182,7 @@ pub fn claims(study: &Table, stability: &Table, ordered: f64) -> Result<Vec<Clai
     claims.push(Claim {
         what: "stability (guard against drift): largest stable Re with MRT over that with SRT at tau 0.505"
             .to_owned(),
-        measured: limit("mrt", "0.505")? / limit("srt", "0.505")?,
+        measured: limit(Preset::DHumieres.word(), "0.505")? / limit(Preset::Srt.word(), "0.505")?,
         allowed: 1.5..=20.0,
         why: "no theory and no paper gives this ratio: 2.0 was measured, with forces that double from try to try, and \
               one try less of MRT would be 1.0, so that a change of either collision shows. That MRT is the more \

@@ -1,5 +1,6 @@
 //! The drag of a sphere in a stream: the paper's section 5.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
 
 use super::{Bench, Case, CaseError, Claim, Golden, Stream};
@@ -49,21 +50,21 @@ pub const CASE: Case = Case {
 const DUCT: &str = "duct.csv";
 
 /// Collision, Reynolds number, cells per diameter, relaxation time.
-const RUNS: [(&str, f64, u32, f64); 6] = [
-    ("mrt", 0.1, 4, 0.7),
-    ("mrt", 0.1, 6, 0.7),
-    ("mrt", 10.0, 4, 0.6),
-    ("srt", 10.0, 4, 0.6),
-    ("mrt", 10.0, 6, 0.6),
-    ("mrt", 100.0, 6, 0.515),
+const RUNS: [(Preset, f64, u32, f64); 6] = [
+    (Preset::DHumieres, 0.1, 4, 0.7),
+    (Preset::DHumieres, 0.1, 6, 0.7),
+    (Preset::DHumieres, 10.0, 4, 0.6),
+    (Preset::Srt, 10.0, 4, 0.6),
+    (Preset::DHumieres, 10.0, 6, 0.6),
+    (Preset::DHumieres, 100.0, 6, 0.515),
 ];
 
 /// More of them at the full scale.
-const FULL_RUNS: [(&str, f64, u32, f64); 4] = [
-    ("mrt", 0.1, 8, 0.7),
-    ("mrt", 10.0, 8, 0.6),
-    ("mrt", 10.0, 12, 0.6),
-    ("mrt", 100.0, 12, 0.515),
+const FULL_RUNS: [(Preset, f64, u32, f64); 4] = [
+    (Preset::DHumieres, 0.1, 8, 0.7),
+    (Preset::DHumieres, 10.0, 8, 0.6),
+    (Preset::DHumieres, 10.0, 12, 0.6),
+    (Preset::DHumieres, 100.0, 12, 0.515),
 ];
 
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
@@ -114,8 +115,9 @@ fn quick(engine: &str, known: &Known, rows: &Table) -> Result<Vec<Claim>, CaseEr
         let found = rows.with(&wanted)?.with(&[("cells_per_diameter", cells)])?;
         found.number(column)
     };
-    let fine = of("mrt", "0.1", "6", "K")? / known.duct - 1.0;
-    let slow = rows.with(&[("engine", engine), ("collision", "mrt"), ("Re", "0.1")])?;
+    let fine = of(Preset::DHumieres.word(), "0.1", "6", "K")? / known.duct - 1.0;
+    let slow =
+        rows.with(&[("engine", engine), ("collision", Preset::DHumieres.word()), ("Re", "0.1")])?;
     let sizes = slow.points("cells_per_diameter", "K")?.into_iter();
     let sizes: Vec<_> = sizes.map(|(d, k)| (d, (k / known.duct - 1.0).abs())).collect();
     let order = PowerLaw::fit(&sizes)?.order;
@@ -138,20 +140,21 @@ fn quick(engine: &str, known: &Known, rows: &Table) -> Result<Vec<Claim>, CaseEr
         },
         Claim {
             what: format!("{engine}: Re 10, 6 cells: C_D over that in open water"),
-            measured: of("mrt", "10", "6", "CD")? / known.open("10")?,
+            measured: of(Preset::DHumieres.word(), "10", "6", "CD")? / known.open("10")?,
             allowed: 1.0..=1.1,
             why: "computed to 0.1 %; the box adds 7 % (study.csv, by its width), the grid takes off 2 %",
         },
         Claim {
             what: format!("{engine}: Re 100, 6 cells: C_D over that in open water"),
-            measured: of("mrt", "100", "6", "CD")? / known.open("100")?,
+            measured: of(Preset::DHumieres.word(), "100", "6", "CD")? / known.open("100")?,
             allowed: 1.1..=1.3,
             why: "the boundary layer, d/sqrt(Re) = 0.6 cells, is not resolved, which makes the drag too large; \
                   study.csv shows how it falls with the grid. Held here against drift and between engines",
         },
         Claim {
             what: format!("{engine}: Re 10, 4 cells: C_D with SRT over that with MRT"),
-            measured: of("srt", "10", "4", "CD")? / of("mrt", "10", "4", "CD")?,
+            measured: of(Preset::Srt.word(), "10", "4", "CD")?
+                / of(Preset::DHumieres.word(), "10", "4", "CD")?,
             allowed: 0.97..=1.03,
             why: "the paper finds no remarkable difference; the two differ only in how the surface errs, \
                   which at 4 cells is a few percent",

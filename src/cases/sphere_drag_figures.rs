@@ -1,5 +1,6 @@
 //! The figures of the sphere in a stream.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::CaseError;
@@ -26,11 +27,19 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
     let schiller = law("CD_Schiller_Naumann")?;
     let mut all = Vec::new();
     for engine in rows.values("engine")? {
-        let own = rows.with(&[("engine", &engine), ("collision", "mrt"), ("outcome", "steady")])?;
+        let own = rows.with(&[
+            ("engine", &engine),
+            ("collision", Preset::DHumieres.word()),
+            ("outcome", "steady"),
+        ])?;
         let own = own.with(&[("cells_per_diameter", "6")])?;
         all.push(found("6 cells", &engine, own.points("Re", "CD")?, None));
     }
-    let srt = study.with(&[("outcome", "steady"), ("collision", "srt"), ("width_d", "5")])?;
+    let srt = study.with(&[
+        ("outcome", "steady"),
+        ("collision", Preset::Srt.word()),
+        ("width_d", "5"),
+    ])?;
     let main = sphere_drag_study::main_taus(&srt)?;
     all.push(Series::points(
         "study, SRT, 6 cells",
@@ -140,7 +149,7 @@ fn tau_figure(known: &Known, study: &Table) -> Result<Figure, CaseError> {
         Axis::linear("tau").range(0.5, 1.55),
         Axis::linear("error of the drag").range(-0.5, 0.02),
     );
-    for (word, name) in [("mrt", "MRT"), ("srt", "SRT")] {
+    for (word, name) in [(Preset::DHumieres.word(), "MRT"), (Preset::Srt.word(), "SRT")] {
         let own = study.with(&[("outcome", "steady"), ("collision", word), ("Re", "0.1")])?;
         let own = own.with(&[("cells_per_diameter", "4"), ("width_d", "5")])?;
         let mut points = own.points("tau", "K")?;

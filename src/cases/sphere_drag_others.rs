@@ -1,5 +1,6 @@
 //! The rest of the sphere's study: Reynolds numbers in the paper's box alone, and SRT beside MRT.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::PowerLaw;
 
 use super::sphere_drag_study::{Blockage, TAUS, VARIED, Varied, grids, steady, without_grid};
@@ -90,7 +91,8 @@ pub fn claims(
 /// SRT beside MRT on 6 cells, wherever both became steady.
 fn srt_claim(study: &Table) -> Result<Claim, CaseError> {
     let wanted = [("width_d", "5"), ("cells_per_diameter", "6")];
-    let single = study.with(&[("outcome", "steady"), ("collision", "srt")])?.with(&wanted)?;
+    let single =
+        study.with(&[("outcome", "steady"), ("collision", Preset::Srt.word())])?.with(&wanted)?;
     let multiple = steady(study)?.with(&wanted)?;
     let mut off = f64::NAN;
     let mut compared = Vec::new();

@@ -4,6 +4,7 @@ use super::sphere_drag_others as others;
 use super::twins::{twins_claim, without_twins};
 use super::{CaseError, Claim, Stream, steadiness};
 use crate::table::Table;
+use psmrt_reference::collision::Preset;
 
 /// What tells a run from all others.
 const RUN: &[&str] = Stream::COLUMNS.split_at(6).0;
@@ -86,7 +87,8 @@ pub const VARIED: [Varied; 4] = [
 
 /// The rows of runs that became steady, with d'Humieres' rates; the oracle's where both engines made one.
 pub fn steady(study: &Table) -> Result<Table, CaseError> {
-    Ok(without_twins(study, RUN).with(&[("outcome", "steady"), ("collision", "mrt")])?)
+    Ok(without_twins(study, RUN)
+        .with(&[("outcome", "steady"), ("collision", Preset::DHumieres.word())])?)
 }
 
 /// Each Reynolds number's relaxation time on all grids.

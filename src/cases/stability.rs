@@ -43,7 +43,7 @@ pub const CASE: Case = Case {
 const FLOWS: [&str; 5] = ["shear_layer", "taylor_green", "abc", "bed_force", "bed_inlet"];
 
 pub(super) const COLLISIONS: [(&str, &str); 3] =
-    [("SRT", "SRT"), ("MRT_dHumieres", "MRT d'Humières"), ("MRT_magic", "MRT magic 3/16")];
+    [("SRT", "SRT"), ("MRT_dHumieres", "MRT d'Humières"), ("TRT_3/16", "TRT 3/16")];
 
 /// The frontiers of all maps, in double precision and in single.
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {

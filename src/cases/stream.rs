@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::lattice::viscosity;
 
-use super::bench::collision_changes;
 use super::{Bench, CaseError};
 use crate::run::RunError;
+use crate::scene::preset_changes;
 
 /// Diameter, m, and viscosity, m2/s, of the scene.
 const SI_DIAMETER: f64 = 3e-4;
@@ -16,7 +17,7 @@ const SI_VISCOSITY: f64 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stream {
     /// Collision: `mrt`, `srt` or `magic`.
-    pub collision: &'static str,
+    pub collision: Preset,
     /// Reynolds number `U d/nu`, with the velocity `U` of the inlet.
     pub reynolds: f64,
     /// Cells per diameter.
@@ -54,7 +55,7 @@ impl Stream {
     pub fn start(&self, engine: &str) -> Vec<String> {
         let Stream { collision, reynolds, cells, tau, width, .. } = self;
         let numbers = [reynolds.to_string(), cells.to_string(), tau.to_string(), width.to_string()];
-        [vec![engine.to_owned(), (*collision).to_owned()], numbers.to_vec()].concat()
+        [vec![engine.to_owned(), collision.word().to_owned()], numbers.to_vec()].concat()
     }
 
     /// Velocity of the inlet, cells per step.
@@ -115,7 +116,7 @@ impl Stream {
             format!("stop.steps={}", 150 * rows),
             format!("stop.steady.tolerance={tolerance:e}"),
         ];
-        changes.extend(collision_changes(self.collision));
+        changes.extend(preset_changes(self.collision));
         changes
     }
 

@@ -1,5 +1,6 @@
 //! Speed for accuracy: the committed sweep, its error models, and what was kept back from them.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
 
 use super::{Bench, Case, CaseError, Claim, Golden};
@@ -7,7 +8,7 @@ use crate::table::Table;
 use crate::tradeoff::effects::effects;
 use crate::tradeoff::evidence::{SolidKnob, grain_points, wall_points};
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
-use crate::tradeoff::knobs::{CollisionKnob, Flow, Storage};
+use crate::tradeoff::knobs::{Flow, Storage};
 use crate::tradeoff::model::Models;
 use crate::tradeoff::record::Row;
 use crate::tradeoff::trial::{Trial, score, trials};
@@ -70,7 +71,7 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
     let magic = rows.iter().filter(|row| {
         let knobs = &row.knobs;
         knobs.flow == Flow::Poiseuille
-            && knobs.collision == CollisionKnob::Magic
+            && knobs.collision == Preset::Trt
             && knobs.storage == Storage::F64
     });
     let magic = magic.filter_map(|row| row.error).fold(0.0, f64::max);
@@ -79,7 +80,7 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
     let leak: Vec<(f64, f64)> = grain_points(&rows)?
         .into_iter()
         .filter(|point| {
-            let this = point.collision == CollisionKnob::Dhumieres && point.tau == 1.5;
+            let this = point.collision == Preset::DHumieres && point.tau == 1.5;
             let usual = point.solid == SolidKnob::Usual;
             this && usual && point.geometry == "SC 0.2" && point.cells > 8.0
         })

@@ -1,5 +1,6 @@
 //! `psmrt plan`: the cheapest way to compute a scene to a given error.
 
+use psmrt_reference::collision::Preset;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -21,9 +22,8 @@ use crate::quote;
 use crate::scene::{EngineKind, Scene};
 use crate::table::TableError;
 use crate::tradeoff::cost::mrt_over_srt;
-use crate::tradeoff::knobs::CollisionKnob;
 use crate::tradeoff::model::{LEAST_ERROR, Models};
-use crate::tradeoff::{support, trial};
+use crate::tradeoff::support;
 
 /// What `psmrt plan` is asked for.
 #[derive(Clone, Debug)]
@@ -131,7 +131,7 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
 /// The scene as it is, on its own engine.
 fn now(scene: &Scene, facts: &Facts, models: &Models, speeds: &[Speed]) -> Result<Way, Outside> {
     let none = |why: &str| Outside { why: why.to_owned(), nearest: None, may_be_worse: true };
-    let collision = trial::collision_of(&scene.setup.collision)
+    let collision = Preset::of(&scene.setup.collision)
         .ok_or_else(|| none("no run of the evidence has its relaxation rates"))?;
     let kernel = scene.engine == EngineKind::Wgpu;
     let engine = if kernel { "wgpu" } else { "reference" };
@@ -169,7 +169,7 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
             return Err(CommandError::Usage(format!("{}: {problem}", request.scene.display())));
         };
         let per_second = pace.updates_per_second;
-        let is_srt = trial::collision_of(&scene.setup.collision) == Some(CollisionKnob::Srt);
+        let is_srt = Preset::of(&scene.setup.collision) == Some(Preset::Srt);
         let ratio = mrt_over_srt(kind)?;
         let (srt, mrt) = if is_srt {
             (1.0 / per_second, ratio / per_second)
@@ -209,11 +209,11 @@ fn alternatives<'a>(all: &'a [Way], best: &Way, wanted: f64) -> Vec<(String, Opt
         ("twice as fast".to_owned(), most_accurate(all, 0.5 * best.seconds)),
         ("half the error".to_owned(), cheapest(all, 0.5 * wanted)),
     ];
-    for collision in CollisionKnob::ALL.into_iter().filter(|&other| other != best.collision) {
+    for collision in Preset::ALL.into_iter().filter(|&other| other != best.collision) {
         let own: Vec<&Way> = all.iter().filter(|way| way.collision == collision).collect();
         let best = own.into_iter().filter(|way| way.band[1] <= wanted);
         let best = best.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
-        found.push((format!("with {}", collision.words()), best));
+        found.push((format!("with {}", collision.title()), best));
     }
     found
 }

@@ -16,7 +16,7 @@ pub(super) fn words(way: &Way) -> String {
         "{nx} x {ny} x {nz} cells ({:.1} across), tau {}, {}, engine {}",
         way.resolution,
         way.tau,
-        way.collision.words(),
+        way.collision.title(),
         way.engine
     )
 }
@@ -56,7 +56,7 @@ pub(super) fn print(
             "  {what:<21}{:>21.1}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
             way.resolution,
             way.tau,
-            way.collision.words(),
+            way.collision.title(),
             way.engine,
             percent(way.error),
             format!("{} to {}", percent(way.band[0]), percent(way.band[1])),

@@ -1,10 +1,10 @@
 //! All ways to compute a scene that lie within the evidence, and which of them is best.
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::lattice::viscosity;
 
 use super::facts::{Facts, Limit};
-use super::predict::{Knobs, Outside, WALL_CELLS, is_heavy_enough, model_of, predict};
-use crate::tradeoff::knobs::CollisionKnob;
+use super::predict::{Knobs, Outside, WALL_CELLS, is_heavy_enough, predict};
 use crate::tradeoff::model::Models;
 
 /// Relaxation times that are tried.
@@ -39,7 +39,7 @@ pub struct Way {
     /// Relaxation time.
     pub tau: f64,
     /// Collision.
-    pub collision: CollisionKnob,
+    pub collision: Preset,
     /// Engine, with the precision that goes with it.
     pub engine: String,
     /// Largest velocity in cells per step, if it is known.
@@ -59,7 +59,7 @@ pub fn ways(facts: &Facts, models: &Models, speeds: &[Speed]) -> Vec<Way> {
     let refinements = refinements(facts);
     let mut ways = Vec::new();
     for tau in TAUS.into_iter().filter(|&tau| is_heavy_enough(facts, tau)) {
-        for collision in CollisionKnob::ALL {
+        for collision in Preset::ALL {
             let fastest = fastest(facts, tau, collision);
             for &refinement in &refinements {
                 if !is_slow_enough(facts, refinement.1, tau, fastest) {
@@ -100,7 +100,7 @@ pub fn why_none(facts: &Facts, models: &Models) -> String {
         grids.iter().map(|(_, si_dx)| facts.limit.cells() * facts.si_dx / si_dx).collect();
     let heavy = Facts { lightest: None, ..facts.clone() };
     let is_known = |&resolution: &f64| {
-        CollisionKnob::ALL.into_iter().any(|collision| {
+        Preset::ALL.into_iter().any(|collision| {
             let knobs =
                 Knobs { resolution, tau: 0.8, collision, single: false, velocity: Some(0.0) };
             predict(&heavy, models, &knobs).is_ok()
@@ -122,16 +122,16 @@ pub fn why_none(facts: &Facts, models: &Models) -> String {
 
 /// How fast the flow that the maps of stability speak of may be, cells per step: what they found to survive
 /// and not to be wrong, and no more than errors of compressibility allow. Nothing where nothing was measured.
-fn fastest(facts: &Facts, tau: f64, collision: CollisionKnob) -> f64 {
+fn fastest(facts: &Facts, tau: f64, collision: Preset) -> f64 {
     let Some((measured, _)) = facts.mapped else { return FASTEST };
-    measured.limit_of(model_of(collision), tau).map_or(0.0, |limit| limit.most().min(FASTEST))
+    measured.limit_of(collision, tau).map_or(0.0, |limit| limit.most().min(FASTEST))
 }
 
 /// The scene as it is, predicted; if it lies outside the evidence, why.
 pub fn as_it_is(
     facts: &Facts,
     models: &Models,
-    collision: CollisionKnob,
+    collision: Preset,
     speed: &Speed,
 ) -> Result<Way, Outside> {
     way(facts, models, (facts.cells, facts.si_dx), (facts.tau, collision), speed)
@@ -164,7 +164,7 @@ fn way(
     facts: &Facts,
     models: &Models,
     (cells, si_dx): ([usize; 3], f64),
-    (tau, collision): (f64, CollisionKnob),
+    (tau, collision): (f64, Preset),
     speed: &Speed,
 ) -> Result<Way, Outside> {
     let si_dt = viscosity(tau) * si_dx * si_dx / facts.si_viscosity;
@@ -175,7 +175,7 @@ fn way(
         predict(facts, models, &Knobs { resolution, tau, collision, single, velocity })?;
     let (error, band) = predicted.size();
     let steps = (facts.si_time / si_dt).ceil();
-    let cost = if collision == CollisionKnob::Srt { speed.srt } else { speed.mrt };
+    let cost = if collision == Preset::Srt { speed.srt } else { speed.mrt };
     let count = cells.iter().map(|&n| n as f64).product::<f64>();
     Ok(Way {
         cells,

@@ -2,9 +2,9 @@
 //! plans by and `psmrt check` warns by.
 
 use super::facts::{Facts, Limit};
-use crate::stability::{Model, limits};
-use crate::tradeoff::knobs::CollisionKnob;
+use crate::stability::limits;
 use crate::tradeoff::model::Models;
+use psmrt_reference::collision::Preset;
 
 /// Between walls the evidence reaches from 6 to 32 cells; finer grids follow the closed form.
 pub(super) const WALL_CELLS: [f64; 2] = [6.0, 256.0];
@@ -20,7 +20,7 @@ pub struct Knobs {
     /// Relaxation time.
     pub tau: f64,
     /// Collision of the fluid.
-    pub collision: CollisionKnob,
+    pub collision: Preset,
     /// Whether in single precision.
     pub single: bool,
     /// Largest velocity in cells per step, if it is known.
@@ -81,7 +81,7 @@ pub fn predict(facts: &Facts, models: &Models, knobs: &Knobs) -> Result<Predicte
             let Some(found) = models.with_grains(method, resolution, tau, *drag) else {
                 return Err(Outside::method(format!(
                     "no run of the evidence has {} with this weight and operator of solid cells",
-                    collision.words()
+                    collision.title()
                 )));
             };
             let [cells, taus] = found.ranges;
@@ -118,7 +118,7 @@ pub fn predict(facts: &Facts, models: &Models, knobs: &Knobs) -> Result<Predicte
             among_walls("from wall to wall", resolution)?;
             let (error, factor) = match (collision, models.of_walls(collision)) {
                 // The walls are right: only rounding is left.
-                (CollisionKnob::Magic, _) => (1e-7, 1.0),
+                (Preset::Trt, _) => (1e-7, 1.0),
                 (_, Some(model)) => {
                     (model.error(resolution, tau, velocity.unwrap_or(0.0)), model.band())
                 }
@@ -128,9 +128,8 @@ pub fn predict(facts: &Facts, models: &Models, knobs: &Knobs) -> Result<Predicte
         }
         Limit::Duct { duct, .. } => {
             among_walls("across the duct", resolution)?;
-            let collision = model_of(collision)
-                .collision(tau)
-                .map_err(|error| Outside::method(error.to_string()))?;
+            let collision =
+                collision.collision(tau).map_err(|error| Outside::method(error.to_string()))?;
             let (error, [low, high]) = duct.error(&collision, resolution);
             Ok(Predicted { error, band: [low - rounding, high + rounding] })
         }
@@ -166,15 +165,6 @@ fn among_walls(what: &str, resolution: f64) -> Result<(), Outside> {
 fn figure(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// The model of the maps of stability that a collision is.
-pub(super) fn model_of(collision: CollisionKnob) -> Model {
-    match collision {
-        CollisionKnob::Srt => Model::Srt,
-        CollisionKnob::Dhumieres => Model::DHumieres,
-        CollisionKnob::Magic => Model::Magic,
-    }
 }
 
 /// Two digits that count.

@@ -1,12 +1,12 @@
 //! The text of a scene with a way of computing it put in.
 
+use psmrt_reference::collision::Preset;
 use std::path::Path;
 
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::options::Way;
 use crate::scene::Scene;
-use crate::tradeoff::knobs::CollisionKnob;
 
 /// The text of `scene` computed in this way, with `comment` above it; files that it names are looked for
 /// in `folder`, in which the scene stood. Errors if the text cannot be read again, which a scene that was
@@ -26,11 +26,11 @@ pub fn text(
     time.insert("tau", value(way.tau));
     document.remove("collision");
     match way.collision {
-        CollisionKnob::Dhumieres => {}
-        CollisionKnob::Srt => {
+        Preset::DHumieres => {}
+        Preset::Srt => {
             section(&mut document, "collision").insert("model", value("srt"));
         }
-        CollisionKnob::Magic => {
+        Preset::Trt => {
             let collision = section(&mut document, "collision");
             collision.insert("rates", value("magic"));
             collision.insert("magic", value(3.0 / 16.0));

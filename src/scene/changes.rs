@@ -1,5 +1,6 @@
 //! Changes of a scene on the command line: `--set key=value`.
 
+use psmrt_reference::collision::Preset;
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
 use super::path::{Path, Step};
@@ -19,6 +20,16 @@ pub fn differ(changes: &[String]) -> Result<(), Box<SceneError>> {
         }
     }
     Ok(())
+}
+
+/// The changes that choose a collision in a scene that has no section `collision`.
+pub fn preset_changes(preset: Preset) -> Vec<String> {
+    let changes: &[&str] = match preset {
+        Preset::DHumieres => &[],
+        Preset::Srt => &["collision.model=\"srt\""],
+        Preset::Trt => &["collision.rates=\"magic\"", "collision.magic=0.1875"],
+    };
+    changes.iter().map(|&change| change.to_owned()).collect()
 }
 
 /// The text of a scene with all changes made. Errors if one of them cannot be made.

@@ -31,7 +31,7 @@ use std::path::Path;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
-pub use changes::differ;
+pub use changes::{differ, preset_changes};
 pub use check::checkpoint::Interval;
 pub use check::free::FreePart;
 pub use check::grains::Attachment;

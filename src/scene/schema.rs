@@ -5,8 +5,8 @@ use std::sync::LazyLock;
 use serde_json::Value;
 
 use super::format::SceneFile;
-use crate::stability::Model;
 use crate::stability::limits::Measured;
+use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::Weighting;
 
 static SCHEMA: LazyLock<Value> = LazyLock::new(|| {
@@ -60,8 +60,9 @@ pub fn reference() -> String {
     for tau in [0.501, 0.51, 0.55, 0.6, 1.0] {
         let mut cells = vec![format!("{tau}")];
         let nt = Measured::Bed(Weighting::NobleTorczynski);
-        for (measured, model) in
-            [Measured::Fluid, nt].into_iter().flat_map(|m| [(m, Model::Srt), (m, Model::DHumieres)])
+        for (measured, model) in [Measured::Fluid, nt]
+            .into_iter()
+            .flat_map(|m| [(m, Preset::Srt), (m, Preset::DHumieres)])
         {
             let limit = measured.limit_of(model, tau);
             cells.push(limit.map_or_else(String::new, |limit| format!("{}", limit.lives)));

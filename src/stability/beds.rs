@@ -6,6 +6,7 @@
 
 use std::f64::consts::PI;
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::domain::{Face, Faces};
 use psmrt_reference::lattice::{Vec3, viscosity};
 use psmrt_reference::partial_saturation::Weighting;
@@ -13,7 +14,7 @@ use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
-use super::{Flow, Found, LabError, Line, Model, Search};
+use super::{Flow, Found, LabError, Line, Search};
 use crate::engine::Engine;
 use crate::engine::EngineName;
 
@@ -91,7 +92,7 @@ pub(super) const BY_INLET: Flow = Flow {
             ("free", Weighting::SolidFraction),
             ("pressure", Weighting::NobleTorczynski),
         ] {
-            for model in [Model::Srt, Model::DHumieres] {
+            for model in [Preset::Srt, Preset::DHumieres] {
                 let weighting = Some(weighting);
                 all.extend(INLET_TAUS.map(|tau| Line { engine, model, weighting, variant, tau }));
             }
@@ -104,7 +105,7 @@ pub(super) const BY_INLET: Flow = Flow {
 fn lines(engine: EngineName) -> Vec<Line> {
     let mut all = Vec::new();
     for weighting in [Weighting::NobleTorczynski, Weighting::SolidFraction] {
-        for model in Model::ALL {
+        for model in Preset::ALL {
             let weighting = Some(weighting);
             all.extend(TAUS.map(|tau| Line { engine, model, weighting, variant: "", tau }));
         }
@@ -112,7 +113,7 @@ fn lines(engine: EngineName) -> Vec<Line> {
     // B = epsilon is no default: the paper's two collisions, at fewer relaxation times.
     all.retain(|line| {
         line.weighting == Some(Weighting::NobleTorczynski)
-            || (line.model != Model::Magic && ![0.500_01, 0.55, 0.8, 2.0].contains(&line.tau))
+            || (line.model != Preset::Trt && ![0.500_01, 0.55, 0.8, 2.0].contains(&line.tau))
     });
     all
 }

@@ -3,12 +3,11 @@
 
 use std::sync::OnceLock;
 
-use psmrt_reference::collision::Collision;
+use psmrt_reference::collision::{Collision, Preset};
 use psmrt_reference::coupling::InternalFluid;
 use psmrt_reference::partial_saturation::Weighting;
-use psmrt_reference::rates::Rates;
 
-use super::{Model, Outcome};
+use super::Outcome;
 use crate::table::{Table, TableError};
 
 /// The maps that the warnings rest on, as they are committed.
@@ -115,11 +114,11 @@ impl Measured {
     /// What the map says of a collision: the smaller of the limits at the measured relaxation times on
     /// either side. `None` where nothing was measured: rates of one's own, tau beyond the map.
     pub fn limit(self, collision: &Collision) -> Option<Limit> {
-        self.limit_of(model_of(collision)?, collision.tau())
+        self.limit_of(Preset::of(collision)?, collision.tau())
     }
 
     /// The same of a model.
-    pub fn limit_of(self, model: Model, tau: f64) -> Option<Limit> {
+    pub fn limit_of(self, model: Preset, tau: f64) -> Option<Limit> {
         // Plans ask for them again and again.
         static FLUID: OnceLock<Vec<Frontier>> = OnceLock::new();
         static BEDS: OnceLock<Vec<Frontier>> = OnceLock::new();
@@ -202,22 +201,4 @@ pub fn taus_of_movers() -> Vec<f64> {
     let mut taus: Vec<f64> = movers().iter().map(|one| one.tau).collect();
     taus.dedup();
     taus
-}
-
-/// The model of a collision, if it is one that was mapped.
-fn model_of(collision: &Collision) -> Option<Model> {
-    let rates = match collision {
-        Collision::Srt { .. } => return Some(Model::Srt),
-        Collision::Mrt { rates } => rates,
-    };
-    let tau = collision.tau();
-    // Rates come from relaxation times and back: some round-off apart.
-    let is_near = |other: Rates| {
-        rates.diagonal().iter().zip(other.diagonal()).all(|(a, b)| (a - b).abs() < 1e-9)
-    };
-    let is_model = |model: &Model| match model.collision(tau) {
-        Ok(Collision::Mrt { rates }) => is_near(rates),
-        _ => Rates::srt(tau).is_ok_and(is_near),
-    };
-    Model::ALL.into_iter().find(is_model)
 }

@@ -25,9 +25,9 @@ mod spectral;
 mod start;
 mod touching;
 
-use psmrt_reference::collision::Collision;
+use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::Weighting;
-use psmrt_reference::rates::{RateError, Rates};
+use psmrt_reference::rates::RateError;
 use thiserror::Error;
 
 use crate::engine::EngineName;
@@ -80,47 +80,13 @@ pub enum Search {
     Frontiers,
 }
 
-/// The collision.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Model {
-    /// Single relaxation time.
-    Srt,
-    /// MRT with d'Humières' rates.
-    DHumieres,
-    /// MRT with two relaxation times, Λ = 3/16.
-    Magic,
-}
-
-impl Model {
-    /// All of them.
-    pub const ALL: [Model; 3] = [Model::Srt, Model::DHumieres, Model::Magic];
-
-    /// As tables spell it.
-    pub fn word(self) -> &'static str {
-        match self {
-            Model::Srt => "SRT",
-            Model::DHumieres => "MRT_dHumieres",
-            Model::Magic => "MRT_magic",
-        }
-    }
-
-    /// With this relaxation time. Errors unless it is above 1/2.
-    pub fn collision(self, tau: f64) -> Result<Collision, RateError> {
-        Ok(match self {
-            Model::Srt => Collision::Srt { tau },
-            Model::DHumieres => Collision::Mrt { rates: Rates::dhumieres(tau)? },
-            Model::Magic => Collision::Mrt { rates: Rates::magic(tau, 3.0 / 16.0)? },
-        })
-    }
-}
-
 /// What stays the same along a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// The engine: double precision or single.
     pub engine: EngineName,
     /// The collision.
-    pub model: Model,
+    pub model: Preset,
     /// The weight, where there are solids.
     pub weighting: Option<Weighting>,
     /// What else tells lines of a flow apart; empty if nothing does.

@@ -12,6 +12,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::coupling::{CouplingSettings, InternalFluid};
 use psmrt_reference::domain::Faces;
 use psmrt_reference::grains::grain::Grain;
@@ -23,7 +24,7 @@ use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
-use super::{Flow, Found, LabError, Line, Model, Search};
+use super::{Flow, Found, LabError, Line, Search};
 use crate::engine::Engine;
 use crate::engine::EngineName;
 use crate::scene::FreePart;
@@ -58,7 +59,7 @@ pub(super) const FLOW: Flow = Flow {
         for variant in if is_kernel { vec!["lagged"] } else { vec!["lagged", "kept"] } {
             all.extend([0.501, 0.51, 0.55, 0.6, 0.8, 1.0, 2.0, 5.0].map(|tau| Line {
                 engine,
-                model: Model::DHumieres,
+                model: Preset::DHumieres,
                 weighting: Some(Weighting::NobleTorczynski),
                 variant,
                 tau,

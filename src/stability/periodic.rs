@@ -12,12 +12,13 @@
 
 use std::f64::consts::TAU;
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::domain::Faces;
 use psmrt_reference::lattice::{Vec3, viscosity};
 
 use super::lab::{Lab, go_on};
 use super::spectral::vorticity;
-use super::{Flow, Found, LabError, Line, Model, Search};
+use super::{Flow, Found, LabError, Line, Search};
 use crate::engine::Engine;
 use crate::engine::EngineName;
 
@@ -111,7 +112,7 @@ pub(super) const ABC: Flow = Flow {
 
 fn lines(engine: EngineName) -> Vec<Line> {
     let line = |model, tau| Line { engine, model, weighting: None, variant: "", tau };
-    Model::ALL.into_iter().flat_map(|model| TAUS.map(|tau| line(model, tau))).collect()
+    Preset::ALL.into_iter().flat_map(|model| TAUS.map(|tau| line(model, tau))).collect()
 }
 
 /// A number of steps, rounded and kept within bounds.

@@ -50,8 +50,8 @@ pub(super) fn populations(
 
 #[cfg(test)]
 mod tests {
-    use super::super::Model;
     use super::*;
+    use psmrt_reference::collision::Preset;
     use psmrt_reference::domain::{Domain, Faces};
     use psmrt_reference::setup::Setup;
     use psmrt_reference::solver::Solver;
@@ -62,7 +62,7 @@ mod tests {
     fn a_flow_that_starts_with_its_stress_does_not_swing() {
         const N: usize = 16;
         let k = std::f64::consts::TAU / N as f64;
-        for model in Model::ALL {
+        for model in Preset::ALL {
             for tau in [0.500_1, 0.6, 1.0, 2.0] {
                 let collision = model.collision(tau).unwrap();
                 let domain = Domain::new([1, N, 1], Faces::PERIODIC).unwrap();

@@ -1,5 +1,6 @@
 //! Contacts that are hard or brief, grains that overlap at the start, several grains in one cell.
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::coupling::{CouplingSettings, Gravity};
 use psmrt_reference::domain::{Face, Faces};
 use psmrt_reference::grains::grain::Grain;
@@ -14,7 +15,7 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::movers::with_grains;
-use super::{Flow, Found, LabError, Line, Model, Search};
+use super::{Flow, Found, LabError, Line, Search};
 use crate::engine::EngineName;
 use crate::scene::FreePart;
 
@@ -89,7 +90,7 @@ pub(super) const CROWD: Flow = Flow {
 
 fn grains(engine: EngineName, variant: &'static str, tau: f64) -> Line {
     let weighting = Some(Weighting::NobleTorczynski);
-    Line { engine, model: Model::DHumieres, weighting, variant, tau }
+    Line { engine, model: Preset::DHumieres, weighting, variant, tau }
 }
 
 /// The number that a variant stands for.

@@ -2,15 +2,17 @@
 //! each, so that other work on the machine spoils little. One thread (RAYON_NUM_THREADS=1, and
 //! LP_NUM_THREADS=1 for Mesa's software adapter) gives the steadiest figures.
 
+use psmrt_reference::collision::Preset;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::knobs::{CollisionKnob, Flow, Knobs};
+use super::knobs::{Flow, Knobs};
 use crate::cases::{Bench, CaseError};
 use crate::engine::{self, Engine};
 use crate::kernel::Gpu;
 use crate::table::Table;
+use crate::scene::preset_changes;
 
 /// The committed figures, part of the program.
 const COMMITTED: &str = include_str!("../../golden/tradeoff/cost.csv");
@@ -50,9 +52,9 @@ pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError
     let bench = Bench::new(golden, None, |_| {});
     let mut entries: Vec<Entry> = Vec::new();
     for (kind, scene, changes) in SCENES {
-        for collision in [CollisionKnob::Srt, CollisionKnob::Dhumieres] {
+        for collision in [Preset::Srt, Preset::DHumieres] {
             let mut changes: Vec<String> = changes.iter().map(|&text| text.to_owned()).collect();
-            changes.extend(collision.changes());
+            changes.extend(preset_changes(collision));
             let scene = bench.load(scene, &changes)?;
             let cells = scene.setup.domain.cell_count() as f64;
             let mut add = |name, engine: Box<dyn Engine>| {
@@ -99,8 +101,8 @@ pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError
 /// with any rates. Errors if the table has no such row.
 pub fn seconds_per_update(costs: &Table, knobs: &Knobs) -> Result<f64, CaseError> {
     let collision = match knobs.collision {
-        CollisionKnob::Srt => CollisionKnob::Srt,
-        CollisionKnob::Dhumieres | CollisionKnob::Magic => CollisionKnob::Dhumieres,
+        Preset::Srt => Preset::Srt,
+        Preset::DHumieres | Preset::Trt => Preset::DHumieres,
     };
     let wanted =
         [("engine", &*knobs.engine), ("collision", collision.word()), ("scene", kind(knobs.flow))];
@@ -111,9 +113,9 @@ pub fn seconds_per_update(costs: &Table, knobs: &Knobs) -> Result<f64, CaseError
 /// figures.
 pub fn mrt_over_srt(engine: &str) -> Result<f64, CaseError> {
     let costs = Table::parse("golden/tradeoff/cost.csv", COMMITTED)?;
-    let of = |collision: CollisionKnob| {
+    let of = |collision: Preset| {
         let wanted = [("engine", engine), ("collision", collision.word()), ("scene", "bed")];
         costs.with(&wanted)?.number("ns_per_cell_update")
     };
-    Ok(of(CollisionKnob::Dhumieres)? / of(CollisionKnob::Srt)?)
+    Ok(of(Preset::DHumieres)? / of(Preset::Srt)?)
 }

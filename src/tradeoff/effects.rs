@@ -1,8 +1,9 @@
 //! What one knob alone does: runs beside the run that differs in nothing else and has the default.
 
-use super::knobs::{CollisionKnob, Flow, Knobs, Storage};
+use super::knobs::{Flow, Knobs, Storage};
 use super::record::Row;
 use crate::table::Table;
+use psmrt_reference::collision::Preset;
 
 /// A knob, turned.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,9 +71,9 @@ fn turned(knobs: &Knobs) -> Option<(String, Knobs)> {
     } else if knobs.samples != 0 {
         default.samples = 0;
         format!("coverage sampled {0} x {0} x {0}", knobs.samples)
-    } else if knobs.collision != CollisionKnob::Dhumieres {
-        default.collision = CollisionKnob::Dhumieres;
-        format!("collision {}", knobs.collision.words())
+    } else if knobs.collision != Preset::DHumieres {
+        default.collision = Preset::DHumieres;
+        format!("collision {}", knobs.collision.title())
     } else {
         return None;
     };

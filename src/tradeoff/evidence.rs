@@ -1,8 +1,9 @@
 //! The runs that error models rest on: the committed sweep, and the older study of arrays.
 
-use super::knobs::{CollisionKnob, Flow, Knobs, Storage};
+use super::knobs::{Flow, Knobs, Storage};
 use super::record::Row;
 use crate::table::{Table, TableError};
+use psmrt_reference::collision::Preset;
 
 /// The committed rows, part of the program so that `psmrt plan` works anywhere.
 const SWEEP: &str = include_str!("../../golden/tradeoff/sweep.csv");
@@ -64,7 +65,7 @@ pub struct GrainPoint {
     /// Where it stands.
     pub source: &'static str,
     /// Collision of the fluid.
-    pub collision: CollisionKnob,
+    pub collision: Preset,
     /// Cells per diameter.
     pub cells: f64,
     /// Relaxation time.
@@ -79,7 +80,7 @@ pub struct GrainPoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallPoint {
     /// Collision of the fluid.
-    pub collision: CollisionKnob,
+    pub collision: Preset,
     /// Cells from plate to plate.
     pub cells: f64,
     /// Relaxation time.
@@ -177,7 +178,7 @@ fn study() -> Result<Vec<GrainPoint>, TableError> {
         // A run that broke has no error.
         let Ok(drag_error) = row.number("relative_error") else { continue };
         let word = row.values("collision")?.pop().unwrap_or_default();
-        let collision = CollisionKnob::from_word(&word)
+        let collision = Preset::from_word(&word)
             .ok_or_else(|| TableError(format!("collision {word:?} of study.csv")))?;
         let lattice = row.values("lattice")?.pop().unwrap_or_default();
         let fraction = row.values("solid_fraction")?.pop().unwrap_or_default();

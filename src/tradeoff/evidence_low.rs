@@ -2,9 +2,9 @@
 //! the beds of the study of seepage.
 
 use super::evidence::{GrainPoint, LEAST_TAU, SolidKnob, all_grain_points};
-use super::knobs::CollisionKnob;
 use super::record::Row;
 use crate::table::{Table, TableError};
+use psmrt_reference::collision::Preset;
 
 const SEEPAGE: &str = include_str!("../../golden/seepage/study.csv");
 const FILE: &str = "golden/seepage/study.csv";
@@ -23,7 +23,7 @@ pub fn low_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, TableError> {
     points.extend(beds()?);
     points.retain(|point| {
         point.tau < LEAST_TAU
-            && point.collision == CollisionKnob::Dhumieres
+            && point.collision == Preset::DHumieres
             && point.solid == SolidKnob::Usual
     });
     // Some configurations are in two tables, or were run by both engines.
@@ -57,7 +57,7 @@ impl Bed {
             solid: SolidKnob::Usual,
             geometry: if self.packing == "fcc" { ORDERED.to_owned() } else { self.packing.clone() },
             source: FILE,
-            collision: CollisionKnob::Dhumieres,
+            collision: Preset::DHumieres,
             cells: self.cells,
             tau: self.tau,
             // Force per volume n 3π μ d U K with n = c/(π d³/6):  k/d² = 1/(18 c K)
@@ -75,7 +75,8 @@ impl Bed {
 /// finest grid, less the error of the ordered bed there (below 1 %).
 fn beds() -> Result<Vec<GrainPoint>, TableError> {
     let table = Table::parse(FILE, SEEPAGE)?;
-    let table = table.with(&[("collision", "mrt"), ("weighting", "noble_torczynski")])?;
+    let table = table
+        .with(&[("collision", Preset::DHumieres.word()), ("weighting", "noble_torczynski")])?;
     let mut beds = Vec::new();
     for i in 0..table.rows.len() {
         let row = Table { columns: table.columns.clone(), rows: vec![table.rows[i].clone()] };

@@ -1,10 +1,11 @@
 //! The figures: error against time with the front drawn, one a flow; predictions beside what was measured.
 
+use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::cost::seconds_per_update;
 use super::front::front;
-use super::knobs::{CollisionKnob, Flow, Storage};
+use super::knobs::{Flow, Storage};
 use super::record::Row;
 use super::trial::{Trial, score};
 use crate::cases::CaseError;
@@ -86,9 +87,9 @@ fn series_of(row: &Row) -> &'static str {
         _ if knobs.operator == "superposition" => "superposition",
         _ if knobs.samples > 0 => "sampled coverage",
         _ => match knobs.collision {
-            CollisionKnob::Srt => "SRT",
-            CollisionKnob::Dhumieres => "MRT d'Humieres (default)",
-            CollisionKnob::Magic => "MRT magic 3/16",
+            Preset::Srt => "SRT",
+            Preset::DHumieres => "MRT d'Humieres (default)",
+            Preset::Trt => "TRT 3/16",
         },
     }
 }
@@ -96,7 +97,7 @@ fn series_of(row: &Row) -> &'static str {
 const SERIES: [(&str, Marker); 9] = [
     ("MRT d'Humieres (default)", Marker::Circle),
     ("SRT", Marker::Square),
-    ("MRT magic 3/16", Marker::TriangleUp),
+    ("TRT 3/16", Marker::TriangleUp),
     ("weight B = eps", Marker::Diamond),
     ("superposition", Marker::TriangleDown),
     ("sampled coverage", Marker::Ring),
@@ -195,11 +196,11 @@ pub fn held_back(trials: &[Trial]) -> Option<Figure> {
         Axis::log("predicted error").range(low, high),
         Axis::log("measured error").range(low / 1.5, high * 1.5),
     );
-    for (colour, collision) in CollisionKnob::ALL.into_iter().enumerate() {
+    for (colour, collision) in Preset::ALL.into_iter().enumerate() {
         let own = shown.iter().filter(|trial| trial.row.knobs.collision == collision);
         let points: Vec<_> = own.map(|t| (t.predicted, t.measured.abs())).collect();
         if !points.is_empty() {
-            figure = figure.with(Series::points(collision.words(), points).with_colour(colour));
+            figure = figure.with(Series::points(collision.title(), points).with_colour(colour));
         }
     }
     let line = |factor: f64| [(low, factor * low), (high, factor * high)];

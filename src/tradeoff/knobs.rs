@@ -1,6 +1,7 @@
 //! The knobs of one run, as the tables spell them.
 
 use crate::table::TableError;
+use psmrt_reference::collision::Preset;
 
 /// Names of the columns that a row of knobs has.
 pub const COLUMNS: [&str; 11] = [
@@ -83,56 +84,6 @@ impl Flow {
     }
 }
 
-/// The collision of the fluid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CollisionKnob {
-    /// One relaxation time.
-    Srt,
-    /// Many, with the rates of d'Humières.
-    Dhumieres,
-    /// Many, with those that put a plane wall right (Λ = 3/16).
-    Magic,
-}
-
-impl CollisionKnob {
-    /// All of them.
-    pub const ALL: [CollisionKnob; 3] =
-        [CollisionKnob::Srt, CollisionKnob::Dhumieres, CollisionKnob::Magic];
-
-    /// As tables spell it.
-    pub fn word(self) -> &'static str {
-        match self {
-            CollisionKnob::Srt => "SRT",
-            CollisionKnob::Dhumieres => "MRT_dHumieres",
-            CollisionKnob::Magic => "TRT_3/16",
-        }
-    }
-
-    /// For readers.
-    pub fn words(self) -> &'static str {
-        match self {
-            CollisionKnob::Srt => "SRT",
-            CollisionKnob::Dhumieres => "MRT d'Humieres",
-            CollisionKnob::Magic => "MRT magic 3/16",
-        }
-    }
-
-    /// The collision that a word stands for.
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|collision| collision.word() == word)
-    }
-
-    /// The changes of a scene without a section `collision` that choose it.
-    pub fn changes(self) -> Vec<String> {
-        let words: &[&str] = match self {
-            CollisionKnob::Srt => &["collision.model=\"srt\""],
-            CollisionKnob::Dhumieres => &["collision.rates=\"dhumieres\""],
-            CollisionKnob::Magic => &["collision.rates=\"magic\"", "collision.magic=0.1875"],
-        };
-        words.iter().map(|&word| word.to_owned()).collect()
-    }
-}
-
 /// In which numbers populations are kept from step to step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
@@ -174,7 +125,7 @@ pub struct Knobs {
     /// Relaxation time.
     pub tau: f64,
     /// Collision of the fluid.
-    pub collision: CollisionKnob,
+    pub collision: Preset,
     /// Weight `B`: `NT` or `eps`.
     pub weight: String,
     /// Collision in the solid: `bounce_back` or `superposition`.
@@ -191,7 +142,7 @@ pub struct Knobs {
 
 impl Knobs {
     /// The oracle with all defaults.
-    pub fn new(flow: Flow, geometry: &str, cells: u32, tau: f64, collision: CollisionKnob) -> Self {
+    pub fn new(flow: Flow, geometry: &str, cells: u32, tau: f64, collision: Preset) -> Self {
         let mut knobs = Knobs {
             flow,
             geometry: geometry.to_owned(),
@@ -290,7 +241,7 @@ impl Knobs {
             geometry: text(1)?,
             cells: text(2)?.parse().map_err(|_| wrong(2))?,
             tau: number(3)?,
-            collision: CollisionKnob::from_word(&text(4)?).ok_or_else(|| wrong(4))?,
+            collision: Preset::from_word(&text(4)?).ok_or_else(|| wrong(4))?,
             weight: text(5)?,
             operator: text(6)?,
             samples,

@@ -25,7 +25,7 @@
 
 use std::sync::OnceLock;
 
-use psmrt_reference::collision::Collision;
+use psmrt_reference::collision::{Collision, Preset};
 use psmrt_reference::rates::Rates;
 
 use super::evidence::{
@@ -33,7 +33,6 @@ use super::evidence::{
 };
 use super::evidence_low::low_points;
 use super::fit::{Fit, least_squares, rms};
-use super::knobs::CollisionKnob;
 use super::model_eps::EpsModel;
 use super::model_low::LowModel;
 use crate::exact::magic_parameter;
@@ -50,7 +49,7 @@ pub(super) const QUANTILE: f64 = 1.96;
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrainModel {
     /// The collision.
-    pub collision: CollisionKnob,
+    pub collision: Preset,
     /// How solid cells collide.
     pub solid: SolidKnob,
     /// `ln a`, `ln b`, `m`, `p`, and what they leave.
@@ -75,7 +74,7 @@ const START: [f64; 4] = [1.1, 1.0, 0.8, 3.0];
 impl GrainModel {
     /// Fits the points of a collision whose error is large enough to be of one sign. `None` if there are
     /// too few, or of fewer than three geometries.
-    pub fn fit(collision: CollisionKnob, solid: SolidKnob, points: &[GrainPoint]) -> Option<Self> {
+    pub fn fit(collision: Preset, solid: SolidKnob, points: &[GrainPoint]) -> Option<Self> {
         let own = |point: &&GrainPoint| {
             point.collision == collision && point.solid == solid && point.error > LEAST_ERROR
         };
@@ -142,7 +141,7 @@ fn residual(parameters: &[f64], point: &GrainPoint) -> f64 {
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallModel {
     /// The collision.
-    pub collision: CollisionKnob,
+    pub collision: Preset,
     /// `s` and `c`, and what they leave.
     pub fit: Fit,
     /// Number of runs.
@@ -150,7 +149,7 @@ pub struct WallModel {
 }
 
 /// Relative L2 error that the known slip of the wall makes, `h` cells from plate to plate.
-pub fn slip_error(collision: CollisionKnob, tau: f64, h: f64) -> f64 {
+pub fn slip_error(collision: Preset, tau: f64, h: f64) -> f64 {
     // Slip over the largest velocity: (G/(24 ν))/(G H²/(8 ν)) (16 L - 3).
     let slip = (16.0 * parameter(collision, tau) - 3.0).abs() / (3.0 * h * h);
     // Mean square of the parabola 1 - ξ² at the middles of h cells: 8/15 + 7/(15 h⁴).
@@ -158,18 +157,18 @@ pub fn slip_error(collision: CollisionKnob, tau: f64, h: f64) -> f64 {
 }
 
 /// `L` of a collision.
-pub fn parameter(collision: CollisionKnob, tau: f64) -> f64 {
+pub fn parameter(collision: Preset, tau: f64) -> f64 {
     match collision {
-        CollisionKnob::Srt => magic_parameter(&Collision::Srt { tau }),
-        CollisionKnob::Dhumieres => Rates::dhumieres(tau)
+        Preset::Srt => magic_parameter(&Collision::Srt { tau }),
+        Preset::DHumieres => Rates::dhumieres(tau)
             .map_or(f64::NAN, |rates| magic_parameter(&Collision::Mrt { rates })),
-        CollisionKnob::Magic => 3.0 / 16.0,
+        Preset::Trt => 3.0 / 16.0,
     }
 }
 
 impl WallModel {
     /// Fits the points of a collision whose error is more than rounding. `None` if there are too few.
-    pub fn fit(collision: CollisionKnob, points: &[WallPoint]) -> Option<Self> {
+    pub fn fit(collision: Preset, points: &[WallPoint]) -> Option<Self> {
         let own = |point: &&WallPoint| point.collision == collision && point.error > 1e-4;
         let own: Vec<&WallPoint> = points.iter().filter(own).collect();
         let model = |p: &[f64], point: &WallPoint| {
@@ -226,11 +225,11 @@ pub struct Models {
 impl Models {
     /// Fitted to these points.
     pub fn fit(grains: &[GrainPoint], walls: &[WallPoint]) -> Self {
-        let all = CollisionKnob::ALL;
+        let all = Preset::ALL;
         let methods = all
             .map(|knob| (knob, SolidKnob::Usual))
             .into_iter()
-            .chain([(CollisionKnob::Dhumieres, SolidKnob::Superposition)]);
+            .chain([(Preset::DHumieres, SolidKnob::Superposition)]);
         Models {
             grains: methods
                 .filter_map(|(knob, solid)| GrainModel::fit(knob, solid, grains))
@@ -250,33 +249,33 @@ impl Models {
         let sweep = committed_sweep()?;
         let mut models = Models::fit(&grain_points(&sweep)?, &wall_points(&sweep));
         let low = low_points(&sweep)?;
-        let above = models.of_grains(CollisionKnob::Dhumieres, SolidKnob::Usual);
+        let above = models.of_grains(Preset::DHumieres, SolidKnob::Usual);
         models.low = above.and_then(|above| LowModel::fit(above, &low));
         Ok(MODELS.get_or_init(|| models))
     }
 
     /// The model with grains of a collision of the fluid and of solid cells.
-    pub fn of_grains(&self, collision: CollisionKnob, solid: SolidKnob) -> Option<&GrainModel> {
+    pub fn of_grains(&self, collision: Preset, solid: SolidKnob) -> Option<&GrainModel> {
         self.grains.iter().find(|model| model.collision == collision && model.solid == solid)
     }
 
     /// The error with grains; `None` where nothing was fitted.
     pub fn with_grains(
         &self,
-        (collision, solid): (CollisionKnob, SolidKnob),
+        (collision, solid): (Preset, SolidKnob),
         d: f64,
         tau: f64,
         drag: f64,
     ) -> Option<Prediction> {
         if solid == SolidKnob::SolidFraction {
-            let model = self.eps.as_ref().filter(|_| collision == CollisionKnob::Dhumieres)?;
+            let model = self.eps.as_ref().filter(|_| collision == Preset::DHumieres)?;
             return Some(model.prediction(d, tau, drag));
         }
         let model = self.of_grains(collision, solid)?;
         let low = self
             .low
             .as_ref()
-            .filter(|_| collision == CollisionKnob::Dhumieres && solid == SolidKnob::Usual);
+            .filter(|_| collision == Preset::DHumieres && solid == SolidKnob::Usual);
         if let Some(low) = low.filter(|_| tau < LEAST_TAU) {
             return Some(low.prediction(model, d, tau, drag));
         }
@@ -287,7 +286,7 @@ impl Models {
     }
 
     /// The model between plates of a collision.
-    pub fn of_walls(&self, collision: CollisionKnob) -> Option<&WallModel> {
+    pub fn of_walls(&self, collision: Preset) -> Option<&WallModel> {
         self.walls.iter().find(|model| model.collision == collision)
     }
 }

@@ -14,8 +14,8 @@
 
 use super::evidence::{GrainPoint, SolidKnob};
 use super::fit::{Fit, least_squares};
-use super::knobs::CollisionKnob;
 use super::model::{Prediction, QUANTILE, ranges, unseen};
+use psmrt_reference::collision::Preset;
 
 /// The model and what it leaves.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,7 +52,7 @@ impl EpsModel {
     /// Fits the points with this weight. `None` if there are too few, or of fewer than three geometries.
     pub fn fit(points: &[GrainPoint]) -> Option<Self> {
         let own = |point: &&GrainPoint| {
-            point.collision == CollisionKnob::Dhumieres && point.solid == SolidKnob::SolidFraction
+            point.collision == Preset::DHumieres && point.solid == SolidKnob::SolidFraction
         };
         let own: Vec<&GrainPoint> = points.iter().filter(own).collect();
         let (scatter, geometries) = unseen(&own, through, residual)?;

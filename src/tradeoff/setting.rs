@@ -7,6 +7,7 @@ use psmrt_reference::lattice::viscosity;
 use super::knobs::{Flow, Knobs, Storage};
 use crate::cases::CaseError;
 use crate::table::Table;
+use crate::scene::preset_changes;
 
 /// Viscosity of all scenes, m2/s.
 const SI_VISCOSITY: f64 = 1e-6;
@@ -81,7 +82,7 @@ impl Setting {
         };
         let (scene, mut changes) = flow;
         changes.push(format!("time.tau={}", knobs.tau));
-        changes.extend(knobs.collision.changes());
+        changes.extend(preset_changes(knobs.collision));
         if knobs.flow != Flow::Poiseuille {
             let weight = if knobs.weight == "eps" { "solid_fraction" } else { "noble_torczynski" };
             changes.push(format!("solid.weighting=\"{weight}\""));

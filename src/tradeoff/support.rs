@@ -2,11 +2,11 @@
 
 use super::evidence::{GrainPoint, LEAST_TAU, SolidKnob, committed_sweep, grain_points};
 use super::evidence_low::low_points;
-use super::knobs::CollisionKnob;
 use super::model::{LEAST_ERROR, Models};
 use super::model_eps::EpsModel;
 use super::trial::{committed_results, score, trials};
 use crate::table::TableError;
+use psmrt_reference::collision::Preset;
 
 /// How many of the nearest runs are named.
 const NEAREST: usize = 3;
@@ -14,7 +14,7 @@ const NEAREST: usize = 3;
 /// Evidence for an error with grains.
 pub fn of_grains(
     models: &Models,
-    (collision, solid): (CollisionKnob, SolidKnob),
+    (collision, solid): (Preset, SolidKnob),
     cells: f64,
     tau: f64,
     drag: f64,
@@ -34,7 +34,7 @@ pub fn of_grains(
              {least:.1} to {most:.1} cells, tau {low} to {high}, drag {light:.2} to {heavy:.0}",
             model.counts[0],
             model.counts[1],
-            collision.words()
+            collision.title()
         ),
         format!(
             "error = K^{:.2} [{:.2} (tau - 1/2)/d^2 + {:.2}/d^{:.2}]; 95 % of what was \
@@ -46,7 +46,7 @@ pub fn of_grains(
             model.band()
         ),
     ];
-    let is_low = tau < LEAST_TAU && collision == CollisionKnob::Dhumieres;
+    let is_low = tau < LEAST_TAU && collision == Preset::DHumieres;
     if let Some(low) = models.low.as_ref().filter(|_| is_low && solid == SolidKnob::Usual) {
         let p = &low.fit.parameters;
         let [_, [low_tau, high_tau], [light, heavy]] = low.ranges;
@@ -119,13 +119,13 @@ pub fn of_reynolds(reynolds: Option<f64>) -> Option<String> {
 }
 
 /// Evidence for an error between plates.
-pub fn of_walls(models: &Models, collision: CollisionKnob) -> Vec<String> {
+pub fn of_walls(models: &Models, collision: Preset) -> Vec<String> {
     match models.of_walls(collision) {
         Some(model) => vec![format!(
             "{} runs between plates with {} (golden/tradeoff/sweep.csv): {:.3} times the slip that Ginzburg \
              and d'Humieres derived, and {:.4} u^2 (u in cells per step)",
             model.count,
-            collision.words(),
+            collision.title(),
             model.fit.parameters[0], model.fit.parameters[1]
         )],
         None => vec![

@@ -1,8 +1,9 @@
 //! Which runs a sweep makes: cheap ones first.
 
-use super::knobs::{CollisionKnob, Flow, Knobs, Storage};
+use super::knobs::{Flow, Knobs, Storage};
+use psmrt_reference::collision::Preset;
 
-use CollisionKnob::{Dhumieres, Magic, Srt};
+use Preset::{DHumieres, Srt, Trt};
 
 /// Relaxation times of the full sweep, and the shorter list of what is not the default.
 const TAUS: [f64; 6] = [0.55, 0.6, 0.8, 1.0, 1.5, 2.0];
@@ -28,7 +29,7 @@ fn grid(
     geometry: &str,
     cells: &[u32],
     taus: &[f64],
-    collisions: &[CollisionKnob],
+    collisions: &[Preset],
 ) -> Vec<Knobs> {
     let mut runs = Vec::new();
     for &cells in cells {
@@ -54,19 +55,19 @@ fn on_kernel(knobs: &mut Knobs) {
 }
 
 fn poiseuille(quick: bool) -> Vec<Knobs> {
-    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(Flow::Poiseuille, "", cells, taus, collisions)
     };
     if quick {
-        return grid(&[8, 16], &[0.6, 1.5], &CollisionKnob::ALL);
+        return grid(&[8, 16], &[0.6, 1.5], &Preset::ALL);
     }
-    let some = grid(&[8, 16], &FEW_TAUS, &CollisionKnob::ALL);
-    let mut runs = grid(&[8, 12, 16, 24], &TAUS, &CollisionKnob::ALL);
+    let some = grid(&[8, 16], &FEW_TAUS, &Preset::ALL);
+    let mut runs = grid(&[8, 12, 16, 24], &TAUS, &Preset::ALL);
     for velocity in [0.03, 0.1, 0.2] {
         runs.extend(changed(&some, |knobs| knobs.lattice_velocity = velocity));
     }
     runs.extend(changed(&some, on_kernel));
-    let mrt = grid(&[8, 16], &FEW_TAUS, &[Dhumieres, Magic]);
+    let mrt = grid(&[8, 16], &FEW_TAUS, &[DHumieres, Trt]);
     for storage in [Storage::F32, Storage::F16Shifted] {
         runs.extend(changed(&mrt, |knobs| knobs.storage = storage));
     }
@@ -74,21 +75,21 @@ fn poiseuille(quick: bool) -> Vec<Knobs> {
 }
 
 fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> {
-    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(flow, fraction, cells, taus, collisions)
     };
     if quick {
-        return grid(&[8, 12], &[0.6, 1.5], &[Srt, Dhumieres]);
+        return grid(&[8, 12], &[0.6, 1.5], &[Srt, DHumieres]);
     }
-    let coarse = grid(&[8, 12, 16], &FEW_TAUS, &[Dhumieres]);
-    let mut runs = grid(cells, &TAUS, &[Dhumieres]);
-    runs.extend(grid(&[8, 12, 16, 24], &[0.6, 0.8, 1.0, 1.5], &[Srt, Magic]));
+    let coarse = grid(&[8, 12, 16], &FEW_TAUS, &[DHumieres]);
+    let mut runs = grid(cells, &TAUS, &[DHumieres]);
+    runs.extend(grid(&[8, 12, 16, 24], &[0.6, 0.8, 1.0, 1.5], &[Srt, Trt]));
     let mut solid = coarse.clone();
-    solid.extend(grid(&[8, 12, 16], &[1.0, 2.0], &[Dhumieres]));
-    solid.extend(grid(&[24], &[0.6, 0.8, 1.0, 1.5], &[Dhumieres]));
+    solid.extend(grid(&[8, 12, 16], &[1.0, 2.0], &[DHumieres]));
+    solid.extend(grid(&[24], &[0.6, 0.8, 1.0, 1.5], &[DHumieres]));
     runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
     runs.extend(changed(&solid, |knobs| "superposition".clone_into(&mut knobs.operator)));
-    runs.extend(changed(&grid(&[8, 16], &FEW_TAUS, &[Dhumieres]), on_kernel));
+    runs.extend(changed(&grid(&[8, 16], &FEW_TAUS, &[DHumieres]), on_kernel));
     let sampled: &[u32] = if flow == Flow::Sc { &[1, 2, 3, 5, 10] } else { &[2, 5] };
     for &samples in sampled {
         runs.extend(changed(&coarse, |knobs| knobs.samples = samples));
@@ -96,7 +97,7 @@ fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> 
     if flow != Flow::Sc {
         return runs;
     }
-    let few = grid(&[8, 12], &FEW_TAUS, &[Dhumieres]);
+    let few = grid(&[8, 12], &FEW_TAUS, &[DHumieres]);
     for velocity in [1e-3, 3e-3, 1e-2] {
         let faster = changed(&few, |knobs| knobs.lattice_velocity = velocity);
         runs.extend(faster.iter().cloned());
@@ -111,73 +112,73 @@ fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> 
 }
 
 fn random(quick: bool) -> Vec<Knobs> {
-    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         let all = ["0.2", "0.45"];
         all.map(|fraction| self::grid(Flow::Random, fraction, cells, taus, collisions)).concat()
     };
     if quick {
-        return grid(&[12], &[0.8, 1.5], &[Dhumieres]);
+        return grid(&[12], &[0.8, 1.5], &[DHumieres]);
     }
-    let mut runs = grid(&[12, 16, 24, 32], &[0.6, 0.8, 1.0, 1.5, 2.0], &[Dhumieres]);
-    runs.extend(grid(&[12, 16, 24], &FEW_TAUS, &[Srt, Magic]));
-    let solid = grid(&[12, 16, 24], &FEW_TAUS, &[Dhumieres]);
+    let mut runs = grid(&[12, 16, 24, 32], &[0.6, 0.8, 1.0, 1.5, 2.0], &[DHumieres]);
+    runs.extend(grid(&[12, 16, 24], &FEW_TAUS, &[Srt, Trt]));
+    let solid = grid(&[12, 16, 24], &FEW_TAUS, &[DHumieres]);
     runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
     runs.extend(changed(&solid, |knobs| "superposition".clone_into(&mut knobs.operator)));
     runs
 }
 
 fn settling(quick: bool) -> Vec<Knobs> {
-    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(Flow::Settling, "0.25", cells, taus, collisions)
     };
     if quick {
-        return grid(&[4, 6], &[0.8, 1.5], &[Dhumieres]);
+        return grid(&[4, 6], &[0.8, 1.5], &[DHumieres]);
     }
-    let mut runs = grid(&[4, 6], &TAUS, &[Dhumieres]);
-    runs.extend(grid(&[4, 6], &FEW_TAUS, &[Srt, Magic]));
-    let coarse = grid(&[4, 6], &FEW_TAUS, &[Dhumieres]);
+    let mut runs = grid(&[4, 6], &TAUS, &[DHumieres]);
+    runs.extend(grid(&[4, 6], &FEW_TAUS, &[Srt, Trt]));
+    let coarse = grid(&[4, 6], &FEW_TAUS, &[DHumieres]);
     runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
     runs.extend(changed(&coarse, on_kernel));
     for samples in [2, 5] {
         runs.extend(changed(&coarse, |knobs| knobs.samples = samples));
     }
-    runs.extend(grid(&[8], &[2.0, 1.5, 1.0, 0.8, 0.6], &[Dhumieres]));
-    runs.extend(grid(&[8], &[1.5, 0.8], &[Srt, Magic]));
-    runs.extend(changed(&grid(&[8], &[1.5, 0.8], &[Dhumieres]), on_kernel));
-    runs.extend(grid(&[12], &[2.0, 1.5, 1.0], &[Dhumieres]));
+    runs.extend(grid(&[8], &[2.0, 1.5, 1.0, 0.8, 0.6], &[DHumieres]));
+    runs.extend(grid(&[8], &[1.5, 0.8], &[Srt, Trt]));
+    runs.extend(changed(&grid(&[8], &[1.5, 0.8], &[DHumieres]), on_kernel));
+    runs.extend(grid(&[12], &[2.0, 1.5, 1.0], &[DHumieres]));
     // Twice as narrow and so eight times as cheap: finer grids.
-    let narrow = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+    let narrow = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         self::grid(Flow::Settling, "0.5", cells, taus, collisions)
     };
-    runs.extend(narrow(&[4, 6, 8, 12], &[2.0, 1.5, 0.8, 0.6], &[Dhumieres]));
-    runs.extend(narrow(&[4, 8, 12], &[1.5, 0.8], &[Srt, Magic]));
-    let solid = narrow(&[6, 8, 12], &FEW_TAUS, &[Dhumieres]);
+    runs.extend(narrow(&[4, 6, 8, 12], &[2.0, 1.5, 0.8, 0.6], &[DHumieres]));
+    runs.extend(narrow(&[4, 8, 12], &[1.5, 0.8], &[Srt, Trt]));
+    let solid = narrow(&[6, 8, 12], &FEW_TAUS, &[DHumieres]);
     runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
     runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
-    runs.extend(narrow(&[16], &[2.0, 1.5, 1.0, 0.8], &[Dhumieres]));
-    runs.extend(grid(&[16], &[2.0, 1.5], &[Dhumieres]));
+    runs.extend(narrow(&[16], &[2.0, 1.5, 1.0, 0.8], &[DHumieres]));
+    runs.extend(grid(&[16], &[2.0, 1.5], &[DHumieres]));
     runs
 }
 
 fn sphere_drag(quick: bool) -> Vec<Knobs> {
-    let grid = |cells: &[u32], taus: &[f64], collisions: &[CollisionKnob]| {
+    let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(Flow::SphereDrag, "0.00418879", cells, taus, collisions)
     };
     if quick {
-        return grid(&[20], &[0.8, 1.5], &[Dhumieres]);
+        return grid(&[20], &[0.8, 1.5], &[DHumieres]);
     }
-    let mut runs = grid(&[20], &[2.0, 1.5, 1.0, 0.8], &[Dhumieres]);
-    let coarse = grid(&[20], &[1.5], &[Dhumieres]);
+    let mut runs = grid(&[20], &[2.0, 1.5, 1.0, 0.8], &[DHumieres]);
+    let coarse = grid(&[20], &[1.5], &[DHumieres]);
     runs.extend(changed(&coarse, on_kernel));
     runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
-    runs.extend(grid(&[20], &[1.5], &[Srt, Magic]));
-    runs.extend(grid(&[24], &[2.0], &[Dhumieres]));
+    runs.extend(grid(&[20], &[1.5], &[Srt, Trt]));
+    runs.extend(grid(&[24], &[2.0], &[DHumieres]));
     runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
-    runs.extend(grid(&[30], &[2.0, 1.5, 1.0], &[Dhumieres]));
-    runs.extend(grid(&[30], &[1.5], &[Srt, Magic]));
-    runs.extend(changed(&grid(&[30], &[1.5], &[Dhumieres]), |knobs| {
+    runs.extend(grid(&[30], &[2.0, 1.5, 1.0], &[DHumieres]));
+    runs.extend(grid(&[30], &[1.5], &[Srt, Trt]));
+    runs.extend(changed(&grid(&[30], &[1.5], &[DHumieres]), |knobs| {
         "eps".clone_into(&mut knobs.weight);
     }));
-    runs.extend(grid(&[40], &[2.0, 1.5, 1.0], &[Dhumieres]));
+    runs.extend(grid(&[40], &[2.0, 1.5, 1.0], &[DHumieres]));
     runs
 }

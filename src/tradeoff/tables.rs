@@ -2,11 +2,12 @@
 
 use super::evidence::SolidKnob;
 use super::figures::{on_front, placed, problems};
-use super::knobs::{COLUMNS, CollisionKnob};
+use super::knobs::COLUMNS;
 use super::model::Models;
 use super::record::Row;
 use super::trial::Trial;
 use crate::table::Table;
+use psmrt_reference::collision::Preset;
 
 /// The models with their parameters, standard errors and bands.
 pub fn fits(models: &Models) -> Table {
@@ -48,7 +49,7 @@ pub fn fits(models: &Models) -> Table {
         let ((a, da), (b, db)) = (whole(p[0], e[0]), whole(p[2], e[2]));
         let rows =
             [("a", a, da), ("m", p[1], e[1]), ("b", b, db), ("n", p[3], e[3]), ("q", p[4], e[4])];
-        let words = ["grains", CollisionKnob::Dhumieres.word(), SolidKnob::SolidFraction.word()];
+        let words = ["grains", Preset::DHumieres.word(), SolidKnob::SolidFraction.word()];
         add(words, model.counts, &rows, model.scatter, model.band());
     }
     for model in &models.walls {

@@ -1,10 +1,7 @@
 //! The configurations that were kept back from the fits: what the models predict, and what was measured.
 
-use psmrt_reference::collision::Collision;
-use psmrt_reference::rates::Rates;
-
 use super::evidence::{grain_point, wall_point};
-use super::knobs::{CollisionKnob, Knobs};
+use super::knobs::Knobs;
 use super::model::{LEAST_ERROR, Models};
 use super::record::Row;
 use crate::table::{Table, TableError};
@@ -87,31 +84,4 @@ fn predicted(models: &Models, row: &Row) -> Option<(f64, [f64; 2], f64)> {
         _ => found.band,
     };
     Some((found.error, ends, point.error))
-}
-
-/// The knob that a collision is, if it is one of them.
-pub fn collision_of(collision: &Collision) -> Option<CollisionKnob> {
-    let tau = collision.tau();
-    match collision {
-        Collision::Srt { .. } => Some(CollisionKnob::Srt),
-        Collision::Mrt { rates } => {
-            let is =
-                |preset: Result<Rates, _>| preset.is_ok_and(|preset: Rates| close(&preset, rates));
-            if is(Rates::dhumieres(tau)) {
-                Some(CollisionKnob::Dhumieres)
-            } else if is(Rates::magic(tau, 3.0 / 16.0)) {
-                Some(CollisionKnob::Magic)
-            } else if is(Rates::srt(tau)) {
-                Some(CollisionKnob::Srt)
-            } else {
-                None
-            }
-        }
-    }
-}
-
-/// Whether all rates agree but for rounding.
-fn close(a: &Rates, b: &Rates) -> bool {
-    let (a, b) = (a.diagonal(), b.diagonal());
-    a.iter().zip(b.iter()).all(|(a, b)| (a - b).abs() < 1e-9)
 }

@@ -14,7 +14,8 @@ pub use near::{assert_near, in_one_cell_and_too_hard, near_frontiers};
 
 use psmrt::engine::EngineName;
 use psmrt::scene::Scene;
-use psmrt::stability::{Lab, Line, Model};
+use psmrt::stability::{Lab, Line};
+use psmrt_reference::collision::Preset;
 use psmrt_reference::domain::Faces;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::SolidPhase;
@@ -263,7 +264,7 @@ fn often(text: &str) -> String {
 
 /// A solid phase without solids is no solid phase: the same numbers, bit for bit.
 pub fn no_grains(engine: EngineName, lab: &Lab, budget: &mut Budget) {
-    let line = Line { engine, model: Model::DHumieres, weighting: None, variant: "", tau: 0.8 };
+    let line = Line { engine, model: Preset::DHumieres, weighting: None, variant: "", tau: 0.8 };
     let bare = Lab::setup(&line, [6, 5, 4], Faces::PERIODIC).unwrap();
     let empty = bare.clone().with_solids(SolidPhase::default());
     let means = [bare, empty].map(|setup| {
@@ -308,7 +309,8 @@ pub fn any_units(engine: EngineName, lab: &Lab, budget: &mut Budget) {
             (scene.setup.collision.tau() - 0.8).abs() < 1e-12,
             "cells of dx = {si_dx} m: the relaxation time is not the 0.8 of the scene",
         );
-        let line = Line { engine, model: Model::DHumieres, weighting: None, variant: "", tau: 0.8 };
+        let line =
+            Line { engine, model: Preset::DHumieres, weighting: None, variant: "", tau: 0.8 };
         let mut run =
             lab.engine(&line, &scene.setup, scene.free.as_ref(), |_| (1.0, Vec3::zeros())).unwrap();
         budget.spend(1200 * MADE);

@@ -1,7 +1,8 @@
 //! Runs on either side of the frontiers that `golden/stability` holds.
 
 use psmrt::engine::EngineName;
-use psmrt::stability::{FLOWS, Found, Lab, Line, Model, Outcome};
+use psmrt::stability::{FLOWS, Found, Lab, Line, Outcome};
+use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::Weighting;
 
 use crate::common::Budget;
@@ -9,7 +10,7 @@ use crate::common::Budget;
 /// A run close to a frontier, and whether it is to survive.
 pub struct Near {
     pub flow: &'static str,
-    pub model: Model,
+    pub model: Preset,
     pub weighting: Option<Weighting>,
     pub variant: &'static str,
     pub tau: f64,
@@ -27,16 +28,16 @@ pub fn near_frontiers() -> Vec<(Near, u64)> {
         }
     };
     let nt = Some(Weighting::NobleTorczynski);
-    both("shear_layer", 2304, Model::Srt, None, "", 0.501, [0.1, 0.28]);
-    both("shear_layer", 2304, Model::DHumieres, None, "", 0.501, [0.28, 0.5]);
-    both("abc", 4096, Model::Srt, None, "", 0.500_001, [0.28, 0.5]);
-    both("taylor_green", 4096, Model::Srt, None, "", 0.51, [0.28, 0.5]);
-    both("bed_force", 4096, Model::Srt, nt, "", 0.501, [0.005, 0.02]);
-    both("bed_force", 4096, Model::DHumieres, nt, "", 0.501, [0.03, 0.07]);
-    both("bed_force", 4096, Model::Srt, nt, "", 0.6, [0.03, 0.07]);
-    both("movers", 1728, Model::DHumieres, nt, "lagged", 0.6, [0.8, 0.2]);
+    both("shear_layer", 2304, Preset::Srt, None, "", 0.501, [0.1, 0.28]);
+    both("shear_layer", 2304, Preset::DHumieres, None, "", 0.501, [0.28, 0.5]);
+    both("abc", 4096, Preset::Srt, None, "", 0.500_001, [0.28, 0.5]);
+    both("taylor_green", 4096, Preset::Srt, None, "", 0.51, [0.28, 0.5]);
+    both("bed_force", 4096, Preset::Srt, nt, "", 0.501, [0.005, 0.02]);
+    both("bed_force", 4096, Preset::DHumieres, nt, "", 0.501, [0.03, 0.07]);
+    both("bed_force", 4096, Preset::Srt, nt, "", 0.6, [0.03, 0.07]);
+    both("movers", 1728, Preset::DHumieres, nt, "lagged", 0.6, [0.8, 0.2]);
     // So light that it is thrown beyond all bounds before the guard looks.
-    both("movers", 1728, Model::DHumieres, nt, "lagged", 0.51, [1.0, 0.05]);
+    both("movers", 1728, Preset::DHumieres, nt, "lagged", 0.51, [1.0, 0.05]);
     all
 }
 
@@ -80,7 +81,7 @@ pub fn in_one_cell_and_too_hard(engine: EngineName, lab: &Lab, budget: &mut Budg
         ("contact", 1200, "10", 0.6, 0.03, Outcome::Right),
         ("contact", 1200, "5", 0.6, 0.03, Outcome::Refused),
     ] {
-        let line = Line { engine, model: Model::DHumieres, weighting: nt, variant, tau };
+        let line = Line { engine, model: Preset::DHumieres, weighting: nt, variant, tau };
         let flow = FLOWS.iter().find(|known| known.name == flow).unwrap();
         let found = (flow.run)(lab, &line, value).or_else(Found::of).unwrap();
         budget.spend(found.steps * cells);

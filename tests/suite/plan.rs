@@ -7,8 +7,8 @@ use psmrt::plan::facts::{Facts, Limit};
 use psmrt::plan::options::{Speed, Way, cheapest, ways};
 use psmrt::plan::write::text;
 use psmrt::scene::Scene;
-use psmrt::tradeoff::knobs::CollisionKnob;
 use psmrt::tradeoff::model::Models;
+use psmrt_reference::collision::Preset;
 use std::fs;
 use std::path::Path;
 
@@ -187,8 +187,7 @@ fn planned_grain_settles_as_predicted() {
     // 4 x 4 x 16 of 8 cells a diameter: a grid of any number of cells per diameter fills it.
     let (_, ways) = all_ways(SETTLING);
     let speeds = speeds();
-    let oracle =
-        |way: &&Way| way.engine == speeds[0].engine && way.collision == CollisionKnob::Dhumieres;
+    let oracle = |way: &&Way| way.engine == speeds[0].engine && way.collision == Preset::DHumieres;
     let ways: Vec<Way> = ways.iter().filter(oracle).cloned().collect();
     let best = cheapest(&ways, 0.2).unwrap();
     println!("{best:?}");

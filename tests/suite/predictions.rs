@@ -16,10 +16,8 @@ use psmrt::scene::Scene;
 use psmrt::table::Table;
 use psmrt::tradeoff::evidence::{SolidKnob, committed_sweep};
 use psmrt::tradeoff::evidence_low::low_points;
-use psmrt::tradeoff::knobs::CollisionKnob;
 use psmrt::tradeoff::model::Models;
-use psmrt::tradeoff::trial::collision_of;
-use psmrt_reference::collision::Collision;
+use psmrt_reference::collision::{Collision, Preset};
 use psmrt_reference::rates::Rates;
 use std::time::Duration;
 
@@ -89,8 +87,7 @@ fn planned_ducts_err_as_promised() {
         let duct = Scene::load(Path::new("golden/duct/scene.toml"), &changes).unwrap();
         let facts = Facts::of(&duct).unwrap().unwrap();
         let all = ways(&facts, models(), &[oracle()]);
-        let all: Vec<_> =
-            all.into_iter().filter(|way| way.collision == CollisionKnob::Magic).collect();
+        let all: Vec<_> = all.into_iter().filter(|way| way.collision == Preset::Trt).collect();
         let best = cheapest(&all, wanted).unwrap();
         let planned = text(&duct, Path::new(""), best, "").unwrap();
         let planned =
@@ -243,7 +240,11 @@ fn beds_of_the_seepage_study_lie_within_their_bands() {
     // The random packing of 31 spheres, which at tau of 0.6 and more no model was fitted to. Its permeability
     // is that of the finest grid near tau = 1/2, good to 2 %.
     let table = golden("seepage/study.csv");
-    let own = [("collision", "mrt"), ("weighting", "noble_torczynski"), ("packing", "random 3")];
+    let own = [
+        ("collision", Preset::DHumieres.word()),
+        ("weighting", "noble_torczynski"),
+        ("packing", "random 3"),
+    ];
     let own = table.with(&own).unwrap().with(&[("seed", "1"), ("Re_wanted", "1")]).unwrap();
     let fine = own.with(&[("cells_per_diameter", "16.0000"), ("tau", "0.51")]).unwrap();
     let exact = fine.number("permeability_d2").unwrap();
@@ -252,7 +253,7 @@ fn beds_of_the_seepage_study_lie_within_their_bands() {
         let row = own.with(&[("cells_per_diameter", "8.0000"), ("tau", tau)]).unwrap();
         let row = row.with(&[("engine", "reference")]).unwrap();
         let error = row.number("permeability_d2").unwrap() / exact - 1.0;
-        let method = (CollisionKnob::Dhumieres, SolidKnob::Usual);
+        let method = (Preset::DHumieres, SolidKnob::Usual);
         let found = models().with_grains(method, 8.0, tau.parse().unwrap(), drag).unwrap();
         let [low, high] = found.band;
         assert!(
@@ -267,7 +268,7 @@ fn beds_of_the_seepage_study_lie_within_their_bands() {
 fn near_tau_one_half_the_second_error_halves_what_is_left() {
     let points = low_points(&committed_sweep().unwrap()).unwrap();
     assert!(points.len() > 40, "only {} runs", points.len());
-    let above = models().of_grains(CollisionKnob::Dhumieres, SolidKnob::Usual).unwrap();
+    let above = models().of_grains(Preset::DHumieres, SolidKnob::Usual).unwrap();
     let low = models().low.as_ref().unwrap();
     let (mut with, mut without, mut inside) = (0.0, 0.0, 0);
     for point in &points {
@@ -353,7 +354,7 @@ fn check_and_plan_say_the_same_of_every_golden_scene() {
             assert_eq!(said, None, "{name}: plan knows of no error");
             continue;
         };
-        let collision = collision_of(&scene.setup.collision).unwrap();
+        let collision = Preset::of(&scene.setup.collision).unwrap();
         match as_it_is(&facts, models(), collision, &oracle()) {
             Ok(way) => {
                 let said = said.unwrap_or_else(|| panic!("{name}: check says nothing")).value;

@@ -7,9 +7,8 @@ use crate::plan::facts::{Facts, Limit};
 use crate::plan::options::{Speed, Way, as_it_is, most_accurate, ways, why_none};
 use crate::plan::predict::{Knobs, Outside, Predicted, percent, predict};
 use crate::scene::{EngineKind, Scene};
-use crate::tradeoff::knobs::CollisionKnob;
 use crate::tradeoff::model::Models;
-use crate::tradeoff::trial::collision_of;
+use psmrt_reference::collision::Preset;
 
 /// A predicted error above this is warned of. Laws of the drag of beds differ by as much from each other, so
 /// that a larger one spoils what one can compare with; and of the Pareto-optimal runs
@@ -20,7 +19,7 @@ pub(crate) const TOO_LARGE: f64 = 0.1;
 pub(crate) struct Outlook {
     facts: Facts,
     models: &'static Models,
-    collision: CollisionKnob,
+    collision: Preset,
     kernel: bool,
     /// What is predicted, or why nothing is.
     pub found: Result<Predicted, Outside>,
@@ -30,7 +29,7 @@ pub(crate) struct Outlook {
 pub(crate) fn outlook(scene: &Scene) -> Option<Outlook> {
     let facts = Facts::of(scene).ok()?.ok()?;
     let models = Models::committed().ok()?;
-    let collision = collision_of(&scene.setup.collision)?;
+    let collision = Preset::of(&scene.setup.collision)?;
     let kernel = scene.engine == EngineKind::Wgpu;
     let knobs = Knobs {
         resolution: facts.limit.cells(),

@@ -1,5 +1,6 @@
 //! Warnings of scenes beyond what the stability maps (`golden/stability`) found to be stable or accurate.
 
+use psmrt_reference::collision::Preset;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
 
@@ -8,7 +9,6 @@ use crate::estimate::bed::{DENSE, bed};
 use crate::estimate::spheres::solid_fraction;
 use crate::estimate::{Warning, diameters, si_velocity};
 use crate::scene::Scene;
-use crate::stability::Model;
 use crate::stability::limits::Measured;
 
 /// The flow of the maps that a scene is compared with, in words too, and how fast it is: cells per step, and where
@@ -50,7 +50,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         "the velocity from {source} is {speed:.3} cells per time step; at tau = {tau:.4} {flow} with this \
          collision {word} (golden/stability)"
     );
-    let other = measured.limit_of(Model::DHumieres, tau).filter(|other| other.lives > limit.lives);
+    let other = measured.limit_of(Preset::DHumieres, tau).filter(|other| other.lives > limit.lives);
     let remedy = match other {
         Some(other) => format!(
             "use MRT with d'Humieres' rates (stable up to {}), a finer grid, or a smaller velocity",
