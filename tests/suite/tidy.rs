@@ -184,3 +184,16 @@ fn every_mutant_of_the_oracle_that_survived_is_explained() {
         );
     }
 }
+
+#[test]
+fn readme_is_short_and_shows_the_scene_of_its_picture() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let readme = text(&root.join("README.md"));
+    let lines = readme.lines().count();
+    assert!(lines <= 150, "the README has {lines} lines: more than 150 belong into docs/");
+    let scene = text(&root.join("docs/grains_in_water.toml"));
+    assert!(
+        readme.contains(&scene),
+        "the README shows another scene than docs/grains_in_water.toml"
+    );
+}
