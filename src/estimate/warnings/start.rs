@@ -80,7 +80,7 @@ fn start(scene: &Scene, axis: usize, side: usize, velocity: &Vec3) -> Option<War
 /// What is left, after so many steps, of the rise of the mean density with which a stream of `cells` cells starts from
 /// rest between an inlet and a non-reflecting face.
 fn left_before_open_face(memory: f64, cells: f64, steps: f64) -> f64 {
-    // The inlet sends sound back as it came, the face with r = -1/(1 + 2sT): a mode exp(st) of a box of L cells has
+    // The inlet sends sound back as it came, the face with r = -1/(1 + 2sT): a mode exp(st) of a domain of L cells has
     // 1 + θz + exp(-z) = 0 with z = 2 s L/c_s, θ = T c_s/L. The slowest, by Newton's method.
     let theta = memory * CS2.sqrt() / cells;
     let swings = theta < 3.6;
