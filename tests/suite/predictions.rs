@@ -53,11 +53,7 @@ fn mean_velocities_of_ducts_agree_with_the_tabulated_series() {
 #[test]
 fn measured_errors_of_ducts_lie_within_the_predicted_band() {
     let rows = golden("duct/expected.csv");
-    let collision = |word: &str| match word {
-        "srt" => Collision::Srt { tau: 0.8 },
-        "mrt" => Collision::Mrt { rates: Rates::dhumieres(0.8).unwrap() },
-        _ => Collision::Mrt { rates: Rates::magic(0.8, 3.0 / 16.0).unwrap() },
-    };
+    let collision = |word: &str| Preset::from_word(word).unwrap().collision(0.8).unwrap();
     let square = Duct::new(1.0);
     for row in &rows.rows {
         let (cells, measured): (f64, f64) = (row[2].parse().unwrap(), row[3].parse().unwrap());
@@ -181,7 +177,7 @@ fn a_bed_with_clear_water_above_it_is_as_tight_as_the_bed() {
         // Its ends are found to an eighth of a diameter, of 4 diameters, by a line between two points.
         assert!((there / (PI / 6.0) - 1.0).abs() < 0.02, "{there} at {shift}, for {}", PI / 6.0);
         assert!((found / full - 1.0).abs() < 0.1, "{found} for {full}: {because}");
-        assert!(because.contains("the whole box has 0.262"), "{because}");
+        assert!(because.contains("the whole domain has 0.262"), "{because}");
     }
     // Neither an even array nor a few grains in clear water are a bed.
     let two = stacked(1, 0.0)
