@@ -6,8 +6,8 @@ use psmrt_report::{Axis, Figure, PowerLaw};
 use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden};
 use crate::engine::EngineName;
-use crate::table::Table;
 use crate::scene::preset_changes;
+use crate::table::Table;
 
 /// Flow in a square duct.
 pub const CASE: Case = Case {

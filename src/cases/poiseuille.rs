@@ -8,8 +8,8 @@ use crate::engine::EngineName;
 use crate::exact::Comparison;
 use crate::output::records::profile_rows;
 use crate::scene::check::records::middle;
-use crate::table::Table;
 use crate::scene::preset_changes;
+use crate::table::Table;
 
 /// Plane Poiseuille flow.
 pub const CASE: Case = Case {

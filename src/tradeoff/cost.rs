@@ -11,8 +11,8 @@ use super::knobs::{Flow, Knobs};
 use crate::cases::{Bench, CaseError};
 use crate::engine::{self, Engine};
 use crate::kernel::Gpu;
-use crate::table::Table;
 use crate::scene::preset_changes;
+use crate::table::Table;
 
 /// The committed figures, part of the program.
 const COMMITTED: &str = include_str!("../../golden/tradeoff/cost.csv");

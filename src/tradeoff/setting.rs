@@ -6,8 +6,8 @@ use psmrt_reference::lattice::viscosity;
 
 use super::knobs::{Flow, Knobs, Storage};
 use crate::cases::CaseError;
-use crate::table::Table;
 use crate::scene::preset_changes;
+use crate::table::Table;
 
 /// Viscosity of all scenes, m2/s.
 const SI_VISCOSITY: f64 = 1e-6;
