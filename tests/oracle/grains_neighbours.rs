@@ -184,3 +184,20 @@ fn one_two_and_seven_threads_give_the_same_bits() {
         assert!(one == run(threads), "the state differs on {threads} threads");
     }
 }
+
+#[test]
+fn the_list_of_pairs_is_made_anew_when_a_grain_has_moved_by_half_of_what_it_looks_ahead() {
+    // Radius 1: the list looks 0.4 ahead (a fifth of the diameter), so it holds until a grain has moved by 0.2, which
+    // at speed 1 takes 20 sub-steps of 0.01 (the next one, should the sum of twenty fall short of 0.2).
+    let law = ContactLaw::new(1.0, 0.0).unwrap();
+    let far = |x: f64| Grain::sphere(Vec3::new(x, 0.0, 0.0), 1.0, 1.0);
+    let grains = vec![far(0.0).moving(Vec3::new(0.0, 1.0, 0.0)), far(8.0)];
+    let mut system = GrainSystem::new(GrainSetup::new(law), grains, Vec::new()).unwrap();
+    let mut builds = Vec::new();
+    for _ in 0..21 {
+        system.substep(0.01, &[]).unwrap();
+        builds.push(system.list_builds());
+    }
+    assert_eq!(builds[..19], [1; 19], "the list is made anew before a grain has moved by 0.2");
+    assert_eq!(builds[20], 2, "the list is not made anew after a grain has moved by 0.2");
+}
