@@ -15,10 +15,10 @@
 //! | [`stopped_grain`] | why a run stopped at a free grain |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
-//! | [`tradeoff`] | speed for accuracy, measured |
+//! | [`tradeoff`] | speed against accuracy, measured |
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
-//! | [`stability`] | where the method survives and where it is right |
+//! | [`stability`] | where the method is stable and where it is accurate |
 //! | [`table`] | rows of named columns, as CSV files hold them |
 //! | [`units`] | SI units and lattice units |
 //! | [`input`] | reading of files that the user names |

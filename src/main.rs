@@ -125,7 +125,7 @@ Example:
         #[command(subcommand)]
         command: GoldenCommand,
     },
-    /// Maps where the method survives and where it is right
+    /// Maps where the method is stable and where it is accurate
     #[command(
         after_help = "Goes on where it was cut off: runs that the records hold are not made again.
 

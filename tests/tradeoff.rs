@@ -332,7 +332,7 @@ fn section_of_the_report_draws_every_flow_and_what_was_kept_back() {
         "Seepage",
         "Eight spheres",
         "Ten Cate",
-        "kept back",
+        "held back",
     ];
     for title in wanted {
         let figure = figures.iter().find(|figure| figure.title.contains(title));

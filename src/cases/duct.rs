@@ -18,7 +18,7 @@ pub const CASE: Case = Case {
          digits: 0.140577 a h2/nu, with h half the width and a the acceleration. Half-way bounce-back walls meet \
          in corners here, so that no rates make the flow exact; its error falls with the square of the cell \
          size for each collision. Mean velocity by mass flux, on the whole section; tau = 0.8. Steady: the mean \
-         velocity changes by less than 1e-9 of itself (kernel: 1e-6) in 200 steps, three times in a row.",
+         velocity changes by less than 1e-9 of itself (kernel: 1e-6) in 200 steps, in three consecutive samples.",
     ],
     scenes: &["scene.toml"],
     literature: &["literature.csv"],

@@ -29,7 +29,7 @@ pub const CASE: Case = Case {
          the more the larger tau; 8 cells per diameter in the quick rows (9 spheres), 8 to 24 in the study (study.csv, \
          31 spheres), 16 in the paper; Noble and Torczynski's weight, exact solid fractions, \
          MRT with d'Humieres' rates unless SRT is named. Steady: U changes by less than 3e-4 of itself (study: 1e-4) \
-         in three rows in a row, a row being a fifth of the time d2/(4 pi2 nu). The force, not tau, sets Re.",
+         in three consecutive samples, a fifth of the time d2/(4 pi2 nu) apart. The force, not tau, sets Re.",
         "8 cells are few. In the ordered bed psi errs by -16 % there at tau = 0.51 and -35 % at 0.55, and at 0.505 it is too \
          large by up to 11 %: water that leaks through the spheres lowers psi, throats a cell wide raise it, and at one \
          tau the two cancel. The limit for fine grids is the same for each tau, which is claimed.",
@@ -39,7 +39,7 @@ pub const CASE: Case = Case {
          of 31 0.71 to 0.82. It is not the velocity of 0.23 cells per step at its peak: with half of it (tau = 0.505) \
          psi over the law at Re = 100, over the same at Re = 1, gains 2 % at 8 cells and at 12. And it is not the law: Tang's and Ergun's \
          are within 4 % of it there.",
-        "How fast a flow stays stable (stability.csv): the force is doubled until the guard stops the run. The \
+        "Up to what velocity a flow is stable (stability.csv): the force is doubled until the guard stops the run. The \
          paper says Re = 2 for SRT and 30 for MRT and gives neither tau nor its weight; the case stability finds with \
          which of them that is so. The last figure shows the \
          limits found, and what a velocity inlet adds to them (inlet.csv): through the paper's bed, 218 cells long, it \

@@ -239,7 +239,7 @@ fn stability_figure(stability: &Table, inlet: &Table) -> Result<Figure, CaseErro
         .with(Series::dashed("the paper, MRT: 30", across(30.0)).with_colour(1))
         .with(Series::dashed("the paper, SRT: 2", across(2.0)).with_colour(0))
         .note("points: the next run, with twice the force, was stopped, or Re was past 200 already")
-        .note("by inlet: last Re that lived in inlet.toml; twice the density: where the pressure under a bed makes it"))
+        .note("by inlet: last stable Re of inlet.toml; twice the density: where the pressure under a bed makes it"))
 }
 
 /// The largest stable Re against tau - 1/2.

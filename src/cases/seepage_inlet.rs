@@ -87,7 +87,7 @@ pub fn claims(inlet: &Table, paper: &Table) -> Result<Vec<Claim>, CaseError> {
         ] {
             claims.push(Claim {
                 what: format!(
-                    "inlet: last Re that lived with {collision} over that at which the bed needs twice the density, \
+                    "inlet: last stable Re with {collision} over that at which the bed needs twice the density, \
                      tau 0.6 and 0.55, {name}"
                 ),
                 measured: value,
@@ -104,9 +104,7 @@ pub fn claims(inlet: &Table, paper: &Table) -> Result<Vec<Claim>, CaseError> {
             Ok::<_, CaseError>(own.map_or(f64::NAN, |(_, largest)| largest))
         };
         claims.push(Claim {
-            what: format!(
-                "inlet: last Re that lived with {collision} at tau 0.6, kernel over oracle"
-            ),
+            what: format!("inlet: last stable Re with {collision} at tau 0.6, kernel over oracle"),
             measured: at_0_6("wgpu")? / at_0_6("reference")?,
             allowed: 1.0..=1.0,
             why: "the same runs in single precision, which does not make a pressure",

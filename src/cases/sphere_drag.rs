@@ -23,7 +23,7 @@ pub const CASE: Case = Case {
          numbers the drag in open water is known to 0.1 % (axisymmetric Navier-Stokes, computed for this project); \
          White's formula, which the paper compares with, is itself 9 % high at Re = 100. What the box adds is \
          found by varying its width (study.csv) and taken off.",
-        "Steady: the force on the sphere changes by less than 3e-4 of itself (study: 3e-5 below 12 cells) in three rows in a row; a \
+        "Steady: the force on the sphere changes by less than 3e-4 of itself (study: 3e-5 below 12 cells) in three consecutive samples; a \
          row is a third of the time in which a wave as long as the box is wide dies down, or a tenth of that in \
          which the stream passes through. tau is the same on all grids of a Reynolds number and so near to 1/2 \
          (0.7 to 0.51) that the inlet's velocity is below 0.09 cells per step. Quick rows have 4 and 6 cells \
@@ -31,7 +31,7 @@ pub const CASE: Case = Case {
         "Open water is found from the finest two grids in the paper's box, extrapolated as second order, and from \
          boxes of up to 16 diameters, the four widest of which are extrapolated by a power of their width. At Re 30, 50 and 150 the box was not varied: \
          its share is taken between those of Re 10 and 100.",
-        "SRT at 6 cells per diameter is steady up to Re = 50. At Re = 100 and 150 (tau = 0.515 and 0.51) it lives, but its \
+        "SRT at 6 cells per diameter is steady up to Re = 50. At Re = 100 and 150 (tau = 0.515 and 0.51) it is stable, but its \
          force still changes after 10,800 steps, four times what MRT needs: here the paper, which finds both stable up \
          to 150 and shows no difference, is not reproduced (reference/ERRATA.md).",
     ],

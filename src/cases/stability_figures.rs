@@ -30,7 +30,7 @@ pub fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let high = ends.iter().copied().fold(0.0, f64::max);
     figures.push(
         Figure::new(
-            "Largest velocity that survives: single against double precision",
+            "Largest stable velocity: single against double precision",
             Axis::log("double precision (cells per step)"),
             Axis::log("single precision (cells per step)"),
         )
@@ -43,7 +43,7 @@ pub fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
 
 fn fluid(rows: &Table, flow: &str, title: &str) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
-        format!("{title}: how fast it may be"),
+        format!("{title}: largest stable velocity"),
         tau(),
         Axis::log("largest velocity (cells per step)").range(2e-3, 0.8),
     );
@@ -51,19 +51,19 @@ fn fluid(rows: &Table, flow: &str, title: &str) -> Result<Figure, CaseError> {
         let own = [("flow", flow), ("engine", "reference"), ("collision", collision)];
         let lives = points(rows, &own, "survives_to")?;
         let right = points(rows, &own, "right_to")?;
-        let lives = Series::line_points(format!("{label}: survives"), lives).with_colour(colour);
-        let right = Series::dashed(format!("{label}: is right"), right).with_colour(colour);
+        let lives = Series::line_points(format!("{label}: stable"), lives).with_colour(colour);
+        let right = Series::dashed(format!("{label}: accurate"), right).with_colour(colour);
         figure = with_points(with_points(figure, lives), right);
     }
     Ok(figure.note(
-        "double precision; 0.5 was the largest tried; a dashed line hidden by its solid one: all that survives is \
-         right; none at all: nothing tried was",
+        "double precision; 0.5 was the largest tried; a dashed line hidden by its solid one: all that is stable is \
+         accurate; none at all: nothing tried was",
     ))
 }
 
 fn reynolds(rows: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
-        "Packed bed: the Reynolds number that survives",
+        "Packed bed: the largest stable Reynolds number",
         tau(),
         Axis::log("largest Re = U d/(ν (1 - porosity))"),
     );
@@ -93,7 +93,7 @@ fn reynolds(rows: &Table) -> Result<Figure, CaseError> {
 
 fn ratio(rows: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
-        "How many times as fast a flow MRT survives as SRT",
+        "Largest stable velocity of MRT over that of SRT",
         tau(),
         Axis::log("Re (shear layer: velocity) of MRT over that of SRT"),
     );
@@ -120,7 +120,7 @@ fn ratio(rows: &Table) -> Result<Figure, CaseError> {
 fn movers(map: &Table) -> Result<Figure, CaseError> {
     let y = || Axis::log("density of the grain over that of the fluid").range(0.03, 16.0);
     let mut figure =
-        Figure::new("Free grain: which density ratios survive and are right", tau(), y());
+        Figure::new("Free grain: which density ratios are stable and accurate", tau(), y());
     for (number, variant) in ["lagged", "kept"].into_iter().enumerate() {
         if number > 0 {
             figure = figure.with_panel(y());
@@ -137,6 +137,6 @@ fn movers(map: &Table) -> Result<Figure, CaseError> {
         }
     }
     Ok(figure
-        .note("one grain of 6 cells, 600 steps; fluid inside: given back a step later (lagged), kept (below)")
+        .note("one grain of 6 cells, 600 steps; internal mass: added back with a lag of one step (lagged), retained (kept, below)")
         .note("right: momentum stays, never faster than at the start, final velocity within 2 %"))
 }

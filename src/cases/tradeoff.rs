@@ -1,4 +1,4 @@
-//! Speed for accuracy: the committed sweep, its error models, and what was kept back from them.
+//! Speed against accuracy: the committed sweep, its error models, and the configurations held back from them.
 
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
@@ -88,14 +88,14 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
         .collect();
     Ok(vec![
         Claim {
-            what: format!("configurations kept back: share of {of} that lie within the predicted band"),
+            what: format!("configurations held back from the fits: share of {of} that lie within the predicted band"),
             measured: hits as f64 / of as f64,
             allowed: 0.9..=1.0,
             why: "bands are made to hold 95 %; fifty configurations scatter by 3 %, and the aim is 90 %",
         },
         Claim {
             what: format!(
-                "the {of_first} kept back first, after which bands were widened: share within the predicted band"
+                "the {of_first} held back first, after which the bands were widened: share within the predicted band"
             ),
             measured: first as f64 / of_first as f64,
             allowed: 0.9..=1.0,
@@ -120,7 +120,7 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
             why: "exact (Ginzburg & d'Humieres 2003) but for runs that are steady to 1e-8 a row",
         },
         Claim {
-            what: "kernel (single precision less the weights): largest difference of an error from the \
+            what: "kernel (single precision, shifted populations f - w): largest difference of an error from the \
                    oracle's"
                 .to_owned(),
             measured: kernel,

@@ -39,7 +39,7 @@ pub fn twins_claim(study: &Table, columns: &[&str], column: &str) -> Result<Clai
         // Without any there is nothing to hold the kernel's rows to.
         measured: pairs.into_iter().reduce(f64::max).unwrap_or(f64::NAN),
         allowed: 0.0..=1e-4,
-        why: "single precision, less the weights, leaves a steady mean of many cells some 1e-6; the tolerance of the \
+        why: "single precision with shifted populations leaves a steady mean of many cells some 1e-6; the tolerance of the \
               steady state is 3e-5 to 1e-4",
     })
 }

@@ -1,4 +1,4 @@
-//! `psmrt stability`: where the method survives and where it is right.
+//! `psmrt stability`: where the method is stable and where it is accurate.
 
 use std::path::PathBuf;
 

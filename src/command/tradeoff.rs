@@ -1,4 +1,4 @@
-//! `psmrt tradeoff`: sweeps the knobs of scenes on flows with known answers.
+//! `psmrt tradeoff`: sweeps the parameters of scenes on flows with known answers.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -31,7 +31,7 @@ pub struct TradeoffRequest {
     /// A handful of runs for each flow
     #[arg(long)]
     pub quick: bool,
-    /// Only the configurations that are kept back from the fits (golden/tradeoff/held_back.csv)
+    /// Only the configurations that are held back from the fits (golden/tradeoff/held_back.csv)
     #[arg(long, conflicts_with_all = ["case", "quick"])]
     pub held_back: bool,
     /// Folder for the rows, which are added to those that are there, and for what is made of them
@@ -125,7 +125,7 @@ fn summarise(
         let trials = trials(&models, &Row::of_table(&Table::read(&results)?)?)?;
         save(
             "held_back_check.csv",
-            "What was kept back from the fits, predicted and measured",
+            "What was held back from the fits, predicted and measured",
             &tables::check(&trials),
         )?;
         if let Some(figure) = figures::held_back(&trials) {

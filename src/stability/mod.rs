@@ -1,9 +1,9 @@
-//! Where the method survives and where it is right: maps over relaxation time, lattice velocity, density
+//! Where the method is stable and where it is right: maps over relaxation time, lattice velocity, density
 //! ratio and contacts, on both engines.
 //!
 //! A [`Flow`] is run along [`Line`]s: one engine, one collision, one weight, one relaxation time, and a
 //! knob (usually the lattice velocity) that takes several values. Each run ends as an [`Outcome`]: a run
-//! that lives but is wrong is told from one that is right. What "right" is held to stands with each flow:
+//! that is stable but wrong is told from one that is right. What "right" is held to stands with each flow:
 //! an exact solution, an identity or a bound. Rows go to a file as they come ([`record`]), so that a map
 //! that was cut off goes on where it was.
 //!

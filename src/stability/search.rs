@@ -1,4 +1,4 @@
-//! Goes along lines: all values, or only those that find where it stops to survive and to be right.
+//! Goes along lines: all values, or only those that find where it ceases to be stable and to be right.
 
 use super::record::Record;
 use super::{Flow, Found, Lab, LabError, Outcome, Search};

@@ -178,7 +178,7 @@ fn steps(best: &[(f64, f64)]) -> Vec<(f64, f64)> {
     corners.chain(best.last().copied()).collect()
 }
 
-/// Measured against predicted errors of what was kept back.
+/// Measured against predicted errors of what was held back.
 pub fn held_back(trials: &[Trial]) -> Option<Figure> {
     // Errors with B = epsilon have either sign: no place for them on logarithms.
     let shown = |trial: &&Trial| {
@@ -192,7 +192,7 @@ pub fn held_back(trials: &[Trial]) -> Option<Figure> {
         return None;
     }
     let mut figure = Figure::new(
-        "Configurations kept back from the fits: measured against predicted error",
+        "Configurations held back from the fits: measured against predicted error",
         Axis::log("predicted error").range(low, high),
         Axis::log("measured error").range(low / 1.5, high * 1.5),
     );

@@ -12,7 +12,7 @@
 //! | `model.rs`, `model_eps.rs`, `model_low.rs` | error models, fitted to them |
 //! | `cost.rs`, `effects.rs` | what a cell update costs; what one knob alone does |
 //! | `figures.rs`, `tables.rs` | what is shown |
-//! | `trial.rs`, `support.rs` | what was kept back, and what stands behind a prediction |
+//! | `trial.rs`, `support.rs` | what was held back from the fits, and what stands behind a prediction |
 
 pub mod cost;
 pub mod effects;

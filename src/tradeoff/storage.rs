@@ -1,7 +1,7 @@
 //! An engine that keeps populations in fewer digits from step to step, for what that alone does.
 //!
 //! The arithmetic stays the oracle's, in double precision: a lower bound of the error that a kernel
-//! with such storage makes. psmrt's kernel keeps single precision less the weights.
+//! with such storage makes. psmrt's kernel stores shifted populations, `f - w`, in single precision.
 
 use std::io::{self, Read, Write};
 

@@ -66,7 +66,7 @@ pub fn of_grains(
     }
     let [[first, of_first], [hits, of]] = score(&trials(models, &committed_results()?)?);
     lines.push(format!(
-        "configurations kept back from the fits: {hits} of {of} within their band, and {first} of {of_first} \
+        "configurations held back from the fits: {hits} of {of} within their band, and {first} of {of_first} \
          of those that the bands were widened after"
     ));
     let sweep = committed_sweep()?;

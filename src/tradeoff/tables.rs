@@ -78,7 +78,7 @@ pub fn fronts(rows: &[Row], costs: &Table) -> Table {
     table
 }
 
-/// What was kept back, predicted and measured.
+/// What was held back, predicted and measured.
 pub fn check(trials: &[Trial]) -> Table {
     let columns: Vec<&str> = COLUMNS
         .iter()

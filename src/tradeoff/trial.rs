@@ -1,4 +1,4 @@
-//! The configurations that were kept back from the fits: what the models predict, and what was measured.
+//! The configurations that were held back from the fits: what the models predict, and what was measured.
 
 use super::evidence::{grain_point, wall_point};
 use super::knobs::Knobs;
@@ -46,7 +46,7 @@ pub fn score(trials: &[Trial]) -> [[usize; 2]; 2] {
     })
 }
 
-/// The committed results of what was kept back.
+/// The committed results of what was held back.
 pub fn committed_results() -> Result<Vec<Row>, TableError> {
     Row::of_table(&Table::parse("golden/tradeoff/held_back_results.csv", RESULTS)?)
 }
