@@ -9,13 +9,12 @@
 //! | [`checkpoint`] | the state of a run in a file |
 //! | [`output`] | CSV, pictures, the folder of a run |
 //! | [`estimate`] | what a scene is, what it will cost and what may go wrong |
-//! | [`cases`] | the acceptance cases: measured, judged, drawn |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`courses`] | what prescribed spheres run into |
 //! | [`stopped_grain`] | why a run stopped at a free grain |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
-//! | [`tradeoff`] | speed against accuracy, measured |
+//! | [`tradeoff`] | error models, and the runs that they rest on |
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
 //! | [`stability`] | where the method is stable and where it is accurate |
@@ -29,7 +28,6 @@
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 #![warn(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads: see command/say.rs
 
-pub mod cases;
 pub mod checkpoint;
 pub mod command;
 pub mod conformance;

@@ -11,15 +11,11 @@ use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
 use psmrt::command::conformance::ConformanceCommand;
-use psmrt::command::golden::GoldenCommand;
 use psmrt::command::pack::PackRequest;
 use psmrt::command::plan::{PlanRequest, Wanted};
-use psmrt::command::report::ReportRequest;
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::say::{say, say_bytes, tell};
-use psmrt::command::stability::StabilityRequest;
-use psmrt::command::tradeoff::TradeoffRequest;
 use psmrt::command::{self, CommandError};
 use psmrt::quote;
 
@@ -112,28 +108,6 @@ Example:
         #[command(subcommand)]
         command: ConformanceCommand,
     },
-    /// Measures all cases, judges them and draws them on one page
-    #[command(after_help = "Examples:
-  psmrt report --open
-  psmrt report --oracle-only --out report/validation")]
-    Report(ReportRequest),
-    /// Compares the oracle's results with the reviewed ones, or writes them anew
-    #[command(after_help = "Examples:
-  psmrt golden diff
-  psmrt golden write poiseuille")]
-    Golden {
-        #[command(subcommand)]
-        command: GoldenCommand,
-    },
-    /// Maps where the method is stable and where it is accurate
-    #[command(
-        after_help = "Goes on where it was cut off: runs that the records hold are not made again.
-
-Examples:
-  psmrt stability abc
-  psmrt stability --out golden/stability"
-    )]
-    Stability(StabilityRequest),
     /// Proposes the cheapest grid, time step, collision and engine for a scene and an error
     #[command(after_help = "Examples:
   psmrt plan golden/stokes_settling/scene.toml --error 5%
@@ -153,16 +127,18 @@ Examples:
         #[command(flatten)]
         engine: EngineArguments,
     },
-    /// Measures what speed costs in accuracy: cells per grain, relaxation time, models, engines
-    #[command(
-        after_help = "Rows are added to the table as they are made; runs that have one are left out.
-
-Examples:
-  psmrt tradeoff --quick
-  psmrt tradeoff settling --oracle-only
-  psmrt tradeoff --out golden/tradeoff"
-    )]
-    Tradeoff(TradeoffRequest),
+    /// Now `cargo validate report`
+    #[command(hide = true)]
+    Report(Former),
+    /// Now `cargo validate golden`
+    #[command(hide = true)]
+    Golden(Former),
+    /// Now `cargo validate stability`
+    #[command(hide = true)]
+    Stability(Former),
+    /// Now `cargo validate tradeoff`
+    #[command(hide = true)]
+    Tradeoff(Former),
     /// Shows what this program is and what it runs on
     Info,
     /// Prints the JSON schema of scene files, for editors
@@ -180,6 +156,13 @@ Examples:
         /// The shell
         shell: Shell,
     },
+}
+
+/// What followed the name of a command that another program has now; it is not looked at.
+#[derive(clap::Args)]
+struct Former {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+    _arguments: Vec<String>,
 }
 
 /// What computes; the same as `--set engine.kind=...` and `--set engine.adapter=...`.
@@ -228,14 +211,14 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
             command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })
         }
         Command::Pack(request) => command::pack::pack(&request, json),
-        Command::Report(request) => command::report::report(&request, json),
-        Command::Golden { command } => command::golden::golden(&command),
-        Command::Stability(request) => command::stability::stability(&request),
+        Command::Report(_) => Err(CommandError::Moved("report")),
+        Command::Golden(_) => Err(CommandError::Moved("golden")),
+        Command::Stability(_) => Err(CommandError::Moved("stability")),
+        Command::Tradeoff(_) => Err(CommandError::Moved("tradeoff")),
         Command::Plan { scene, error, write, set, engine } => {
             let set = engine.added_to(set)?;
             command::plan::plan(&PlanRequest { scene, set, error, write, json })
         }
-        Command::Tradeoff(request) => command::tradeoff::tradeoff(&request, json),
         Command::Conformance { command } => command::conformance::conformance(&command, json),
         Command::Oracle { command } => {
             tell("psmrt oracle is now called psmrt conformance; it takes the same arguments");

@@ -8,10 +8,6 @@ use std::time::{SystemTime, UNIX_EPOCH};
 /// The commit; `None` if the program was built outside a checkout.
 pub const COMMIT: Option<&str> = option_env!("PSMRT_COMMIT");
 
-/// How cargo runs a program like this one.
-pub const CARGO_RUN: &str =
-    if cfg!(debug_assertions) { "cargo run --" } else { "cargo run --release --" };
-
 /// Whether the sources had been changed since the commit; `None` if git could not be asked.
 pub fn sources_changed() -> Option<bool> {
     option_env!("PSMRT_MODIFIED").map(|text| text == "true")

@@ -166,7 +166,7 @@ pub(super) fn held(folder: RunFolder) -> RunFolder {
 }
 
 /// Becomes true at Ctrl-C (or SIGTERM); the second one ends the process at once.
-pub(super) fn interruption() -> Arc<AtomicBool> {
+pub fn interruption() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     let set = ctrlc::set_handler(move || {

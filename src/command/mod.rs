@@ -3,29 +3,22 @@
 pub mod check;
 mod comparison;
 pub mod conformance;
-mod environment;
-mod execute;
-pub mod golden;
+pub mod execute;
 pub mod info;
 pub mod pack;
 pub mod plan;
 mod plan_text;
 mod profile;
-mod progress;
-pub mod report;
-mod report_files;
+pub mod progress;
 pub mod resume;
 pub mod run;
 pub mod say;
-pub mod stability;
 mod summary;
-pub mod tradeoff;
 
 use std::path::Path;
 
 use thiserror::Error;
 
-use crate::cases::CaseError;
 use crate::checkpoint::CheckpointError;
 use crate::conformance::files::FilesError;
 use crate::engine::{self, Engine, OpenError, StartError};
@@ -34,7 +27,6 @@ use crate::kernel::{Gpu, KernelError, adapters};
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
-use crate::stability::LabError;
 use crate::table::TableError;
 use say::tell;
 
@@ -70,18 +62,11 @@ pub enum CommandError {
     /// A table that a command rests on cannot be used.
     #[error(transparent)]
     Csv(#[from] TableError),
-    /// A case cannot be measured.
-    #[error(transparent)]
-    Case(#[from] CaseError),
-    /// A map of stability cannot be made.
-    #[error(transparent)]
-    Stability(#[from] LabError),
-    /// A claim of the report fails.
-    #[error("some claims fail: see the report")]
-    ClaimsFail,
-    /// The oracle's results are not the reviewed ones.
-    #[error("the results differ from the reviewed ones: find out why, then `golden write`")]
-    GoldenDiffers,
+    /// A command that another program has now.
+    #[error(
+        "`psmrt {0}` is now `cargo validate {0}`, run in a checkout of the project; it takes the same options"
+    )]
+    Moved(&'static str),
     /// A file cannot be written.
     #[error("{path} cannot be written: {error}")]
     Write {
@@ -141,6 +126,7 @@ impl CommandError {
             | CommandError::Folder(_)
             | CommandError::Resume(_)
             | CommandError::Usage(_)
+            | CommandError::Moved(_)
             | CommandError::Conformance(_)
             | CommandError::NoAnswers { .. }
             | CommandError::Table { .. }
@@ -148,11 +134,7 @@ impl CommandError {
             CommandError::Run(_)
             | CommandError::Write { .. }
             | CommandError::CandidateFailed
-            | CommandError::Csv(_)
-            | CommandError::Case(_)
-            | CommandError::Stability(_)
-            | CommandError::ClaimsFail
-            | CommandError::GoldenDiffers => 1,
+            | CommandError::Csv(_) => 1,
             CommandError::NotSteady => 3,
             CommandError::Interrupted { .. } => 130,
         }
@@ -230,8 +212,8 @@ pub fn engine_changes(
     Ok(kind.into_iter().chain(adapter).collect())
 }
 
-/// Does the writing of one file and says which file it was when that fails.
-fn write<T, E: std::fmt::Display>(
+/// Does the writing of one file. Errors with the name of the file when that fails.
+pub fn write<T, E: std::fmt::Display>(
     path: &Path,
     writing: impl FnOnce(&Path) -> Result<T, E>,
 ) -> Result<T, CommandError> {

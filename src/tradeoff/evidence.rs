@@ -1,7 +1,7 @@
 //! The runs that error models rest on: the committed sweep, and the older study of arrays.
 
 use super::knobs::{Flow, Knobs, Storage};
-use super::record::Row;
+use super::row::Row;
 use crate::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
 

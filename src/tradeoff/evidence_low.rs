@@ -2,7 +2,7 @@
 //! the beds of the study of seepage.
 
 use super::evidence::{GrainPoint, LEAST_TAU, SolidKnob, all_grain_points};
-use super::record::Row;
+use super::row::Row;
 use crate::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
 

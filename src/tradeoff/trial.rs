@@ -3,7 +3,7 @@
 use super::evidence::{grain_point, wall_point};
 use super::knobs::Knobs;
 use super::model::{LEAST_ERROR, Models};
-use super::record::Row;
+use super::row::Row;
 use crate::table::{Table, TableError};
 
 const RESULTS: &str = include_str!("../../golden/tradeoff/held_back_results.csv");

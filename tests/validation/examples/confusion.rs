@@ -2,12 +2,12 @@
 //! judge names.
 //!
 //! ```sh
-//! cargo run --example confusion > golden/conformance/confusion.csv
-//! cargo run --example confusion f32 > golden/conformance/confusion_f32.csv
-//! cargo run --example confusion f16-storage > golden/conformance/confusion_f16.csv
+//! cargo run -p psmrt-validation --example confusion > golden/conformance/confusion.csv
+//! cargo run -p psmrt-validation --example confusion f32 > golden/conformance/confusion_f32.csv
+//! cargo run -p psmrt-validation --example confusion f16-storage > golden/conformance/confusion_f16.csv
 //! ```
 
-#[path = "../tests/conformance/mod.rs"]
+#[path = "../../conformance/mod.rs"]
 mod conformance;
 
 fn main() {
@@ -20,7 +20,7 @@ fn main() {
     println!(
         "# {precision}, and what the judge names; no wrong answers: it is too small to be seen."
     );
-    println!("# Written by: cargo run --example confusion {precision}");
+    println!("# Written by: cargo run -p psmrt-validation --example confusion {precision}");
     print!("{table}");
     // Only temporary files are left behind if this fails.
     let _ = std::fs::remove_dir_all(&folder);

@@ -1,14 +1,14 @@
 //! How far the kernel is from the oracle, over what single precision explains:
-//! `cargo run --example kernel_parity > golden/kernel_parity/parity.csv`.
+//! `cargo run -p psmrt-validation --example kernel_parity > golden/kernel_parity/parity.csv`.
 //!
 //! The same scenes and bounds as `tests/device/kernel_parity.rs` and `tests/device/kernel_runs.rs`, which say where the
 //! bounds come from.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../../common/mod.rs"]
 mod common;
-#[path = "../tests/parity/mod.rs"]
+#[path = "../../parity/mod.rs"]
 mod parity;
-#[path = "../tests/trials/mod.rs"]
+#[path = "../../trials/mod.rs"]
 mod trials;
 
 use common::Budget;
@@ -80,7 +80,9 @@ fn main() {
     println!(
         "# single precision explains (tests/device/kernel_parity.rs, tests/device/kernel_runs.rs)."
     );
-    println!("# Made by: cargo run --example kernel_parity > golden/kernel_parity/parity.csv");
+    println!(
+        "# Made by: cargo run -p psmrt-validation --example kernel_parity > golden/kernel_parity/parity.csv"
+    );
     println!("# Adapter: {} ({}, {}; {})", facts.name, facts.kind, facts.backend, facts.driver);
     println!("scene,steps,quantity,error,allowed");
     let mut budget = Budget::kernel(20_000_000);

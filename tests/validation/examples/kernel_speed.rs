@@ -1,5 +1,5 @@
 //! How fast the kernel is, with the oracle on the same processor beside it, and what each model costs that
-//! a scene may leave out: `cargo run --example kernel_speed [largest side] [adapter] > FILE`.
+//! a scene may leave out: `cargo run -p psmrt-validation --example kernel_speed [largest side] [adapter] > FILE`.
 //!
 //! Million cell updates per second, the best of three runs after a warm-up (shaders compile at their first
 //! use). On a software adapter a second is one of processor time of each thread: what the machine does
@@ -150,7 +150,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             "# A second is one of processor time of each thread: of a machine that does nothing else."
         );
     }
-    println!("# Made by: cargo run --example kernel_speed {largest}");
+    println!("# Made by: cargo run -p psmrt-validation --example kernel_speed {largest}");
     println!("# Adapter: {} ({}, {}; {})", facts.name, facts.kind, facts.backend, facts.driver);
     let processor = psmrt::machine::processor().unwrap_or_else(|| "unknown".to_owned());
     println!("# Processor: {processor}, {} threads", psmrt::machine::threads());

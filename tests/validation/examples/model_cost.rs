@@ -1,4 +1,4 @@
-//! What each model costs, switched on alone: `cargo run --example model_cost [repeats]`.
+//! What each model costs, switched on alone: `cargo run -p psmrt-validation --example model_cost [repeats]`.
 //!
 //! Writes `golden/cost/cost.csv` anew. Each model is timed in turn with the fluid that it is added to, many
 //! times over, by the processor time of all threads of this process (Linux), so that what else the machine
@@ -69,7 +69,7 @@ fn main() -> Result<(), Failure> {
     }
     let repeats: u32 = arguments.first().map_or(Ok(10), |count| count.parse())?;
     let mut text = format!(
-        "# What each model costs, switched on alone: cargo run --example model_cost {repeats}\n\
+        "# What each model costs, switched on alone: cargo run -p psmrt-validation --example model_cost {repeats}\n\
          # {SIDE}^3 cells, tau = {TAU}; slices of {SLICE} steps, each model in turn with what it is added to,\n\
          # {repeats} times, the shortest of each by the processor time of the process; one thread\n\
          # (RAYON_NUM_THREADS=1, LP_NUM_THREADS=1) on two shared cores; the load at the start and the end stands in\n\

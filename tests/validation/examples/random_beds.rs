@@ -1,4 +1,4 @@
-//! The drag of the random beds of the trade-off study: `cargo run --example random_beds`.
+//! The drag of the random beds of the trade-off study: `cargo run -p psmrt-validation --example random_beds`.
 //!
 //! No exact answer is known for spheres at random places. Their drag is taken from our own finest grids, where
 //! the method errs by a percent or two, less what the errors' own form says of it: the velocity under a given
@@ -13,7 +13,7 @@ use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
 use psmrt::tradeoff::knobs::{Flow, Knobs};
-use psmrt::tradeoff::measure::Runner;
+use psmrt_validation::tradeoff::measure::Runner;
 
 const FILE: &str = "golden/tradeoff/random_drag.csv";
 const GRIDS: [u32; 3] = [24, 32, 40];
@@ -21,7 +21,7 @@ const TAUS: [f64; 2] = [0.75, 1.0];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut text = "# Drag of eight spheres at random places (random.csv) over Stokes' drag, total force and superficial velocity:\n\
-                    # cargo run --example random_beds. By our own grids of 24, 32 and 40 cells at tau 0.75 and 1, the errors' own form\n\
+                    # cargo run -p psmrt-validation --example random_beds. By our own grids of 24, 32 and 40 cells at tau 0.75 and 1, the errors' own form\n\
                     # taken off; with exponents from 2 to 4 for the part that is not the leak K lies between low and high. law: van\n\
                     # der Hoef, Beetstra & Kuipers, J. Fluid Mech. 528, 233 (2005), for many spheres: eight in a box scatter about it.\n\
                     # left: what the fit leaves, root mean square.\n\

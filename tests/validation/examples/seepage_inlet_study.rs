@@ -5,18 +5,18 @@
 //! Reynolds number is doubled until the run is stopped or has no room left for its pressure.
 //!
 //! ```text
-//! cargo run --release --example seepage_inlet_study
+//! cargo run --release -p psmrt-validation --example seepage_inlet_study
 //! ```
 
 use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
 
-use psmrt::cases::{Bench, CaseError, Study};
 use psmrt::engine::EngineName;
 use psmrt::kernel::Gpu;
 use psmrt::run::{End, RunError};
 use psmrt::scene::preset_changes;
+use psmrt_validation::cases::{Bench, CaseError, Study};
 
 const STUDY: &str = "golden/seepage/inlet.csv";
 

@@ -5,15 +5,15 @@
 //! have a row are left out, so that it can be cut off and started again. An hour or two on one core.
 //!
 //! ```text
-//! cargo run --release --example seepage_study [stability]
+//! cargo run --release -p psmrt-validation --example seepage_study [stability]
 //! ```
 
 use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
 
-use psmrt::cases::{Bed, Bench, Packing, Study};
 use psmrt::kernel::Gpu;
+use psmrt_validation::cases::{Bed, Bench, Packing, Study};
 
 const STUDY: &str = "golden/seepage/study.csv";
 const STABILITY: &str = "golden/seepage/stability.csv";

@@ -6,15 +6,15 @@
 //! even on one core; two runs are made by both.
 //!
 //! ```text
-//! cargo run --release --example sphere_drag_study
+//! cargo run --release -p psmrt-validation --example sphere_drag_study
 //! ```
 
 use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
 
-use psmrt::cases::{Bench, Stream, Study};
 use psmrt::kernel::Gpu;
+use psmrt_validation::cases::{Bench, Stream, Study};
 
 const STUDY: &str = "golden/sphere_drag/study.csv";
 

@@ -5,17 +5,17 @@
 //! an hour on two cores, most of it for the smallest solid fraction.
 //!
 //! ```text
-//! cargo run --release --example suspension_study
+//! cargo run --release -p psmrt-validation --example suspension_study
 //! ```
 
 #![allow(dead_code, reason = "the tests use more of the shared modules")]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../../common/mod.rs"]
 mod common;
 
 use common::golden_rows;
 use common::suspension::Suspension;
-use psmrt::cases::Study;
+use psmrt_validation::cases::Study;
 use std::io;
 
 const STUDY: &str = "golden/suspension/study.csv";

@@ -5,25 +5,25 @@
 //! on two cores, most of them for 16 cells.
 //!
 //! ```text
-//! cargo run --release --example ten_cate_study
+//! cargo run --release -p psmrt-validation --example ten_cate_study
 //! ```
 //!
 //! With the folder of a run of `golden/ten_cate/scene.toml` and the name of its experiment it adds that run's row
 //! instead, whatever engine made it:
 //!
 //! ```text
-//! cargo run --release --example ten_cate_study out/e1_16 E1
+//! cargo run --release -p psmrt-validation --example ten_cate_study out/e1_16 E1
 //! ```
 
 #![allow(dead_code, reason = "the tests use more of the shared modules")]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../../common/mod.rs"]
 mod common;
 
 use common::settling::{Experiment, Fall, Moment, compare};
-use psmrt::cases::Study;
 use psmrt::scene::{EngineKind, Scene};
 use psmrt::table::Table;
+use psmrt_validation::cases::Study;
 use std::error::Error;
 use std::io;
 use std::path::Path;

@@ -10,13 +10,13 @@ use std::sync::Arc;
 use tempfile::TempDir;
 
 use super::{Case, CaseError, Settled};
-use crate::checkpoint;
-use crate::engine::{self, Engine, EngineName};
-use crate::kernel::Gpu;
-use crate::output::folder::RunFolder;
-use crate::run::{End, Watcher, run, set_aside};
-use crate::scene::Scene;
-use crate::table::Table;
+use psmrt::checkpoint;
+use psmrt::engine::{self, Engine, EngineName};
+use psmrt::kernel::Gpu;
+use psmrt::output::folder::RunFolder;
+use psmrt::run::{End, Watcher, run, set_aside};
+use psmrt::scene::Scene;
+use psmrt::table::Table;
 
 /// Runs scenes for cases.
 pub struct Bench {
@@ -194,7 +194,7 @@ fn not_steady(
     let key = limiting_key(&finished.scene);
     let is_ours = changes.iter().any(|change| change.starts_with(&format!("{key}=")));
     let whose = if is_ours {
-        "that the case sets in its own code (src/cases)"
+        "that the case sets in its own code (tests/validation/src/cases)"
     } else {
         "of the scene file"
     };

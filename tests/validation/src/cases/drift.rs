@@ -1,6 +1,6 @@
 //! How new results differ from the reviewed ones.
 
-use crate::table::Table;
+use psmrt::table::Table;
 
 /// Values that drift by less are the same: another compiler or mathematical library changes the last
 /// digits of each operation, which a steady flow does not amplify; errors that are themselves
@@ -80,7 +80,7 @@ fn change(before: &str, after: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::drifts;
-    use crate::table::Table;
+    use psmrt::table::Table;
 
     fn found(old: &str, new: &str) -> Vec<String> {
         let table = |value: &str| Table::parse("a", &format!("v\n{value}\n")).unwrap();

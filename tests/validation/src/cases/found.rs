@@ -3,7 +3,7 @@
 
 use psmrt_report::{Marker, Series, Style};
 
-use crate::engine::EngineName;
+use psmrt::engine::EngineName;
 
 /// The palette's black.
 const BLACK: usize = 6;

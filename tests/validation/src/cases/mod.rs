@@ -5,7 +5,6 @@
 //! ([`Case::draw`]). `golden/<case>/expected.csv` keeps the rows of the oracle, reviewed, against drift.
 //! Full-scale results are committed beside it with the command that made them.
 
-mod bed_laws;
 mod bench;
 mod cloud_settling;
 mod conformance;
@@ -15,28 +14,16 @@ mod duct;
 mod found;
 mod kernel_parity;
 mod kernel_speed;
-mod packed_bed;
 mod poiseuille;
-mod poiseuille_figures;
 mod seepage;
-mod seepage_figures;
-mod seepage_inlet;
-mod seepage_study;
 mod sphere_arrays;
 mod sphere_drag;
-mod sphere_drag_figures;
-mod sphere_drag_others;
-mod sphere_drag_study;
 mod stability;
-mod stability_figures;
 mod steadiness;
 mod stokes_settling;
-mod stream;
 mod study;
 mod suspension;
 mod ten_cate;
-mod ten_cate_figures;
-mod ten_cate_study;
 mod tradeoff;
 mod twins;
 
@@ -49,20 +36,20 @@ use std::path::PathBuf;
 use psmrt_report::Figure;
 use thiserror::Error;
 
-use crate::checkpoint::CheckpointError;
-use crate::engine::{EngineStop, OpenError};
-use crate::kernel::KernelError;
-use crate::output::folder::FolderError;
-use crate::run::RunError;
-use crate::scene::SceneError;
-use crate::table::{Table, TableError};
+use psmrt::checkpoint::CheckpointError;
+use psmrt::engine::{EngineStop, OpenError};
+use psmrt::kernel::KernelError;
+use psmrt::output::folder::FolderError;
+use psmrt::run::RunError;
+use psmrt::scene::SceneError;
+use psmrt::table::{Table, TableError};
 
-pub use bed_laws::{BED_LAWS, BedLaw};
 pub use bench::{Bench, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
-pub use packed_bed::{Bed, Packing};
+pub use seepage::bed::{Bed, Packing};
+pub use seepage::laws::{BED_LAWS, BedLaw};
+pub use sphere_drag::stream::Stream;
 pub use steadiness::{Settled, steadiness};
-pub use stream::Stream;
 pub use study::Study;
 
 /// A case of the acceptance suite.

@@ -2,8 +2,8 @@
 
 use super::bench::Finished;
 use super::{CaseError, Claim};
-use crate::run::steady::History;
-use crate::table::Table;
+use psmrt::run::steady::History;
+use psmrt::table::Table;
 
 /// A run that its criterion has ended, and what the last rows of its record say.
 #[derive(Clone, Debug, PartialEq)]

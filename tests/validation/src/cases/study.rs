@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use crate::provenance;
+use psmrt::provenance;
 
 /// A CSV file that rows are added to as they are made.
 #[derive(Debug)]
@@ -45,7 +45,7 @@ impl Study {
 #[cfg(test)]
 mod tests {
     use super::Study;
-    use crate::table::Table;
+    use psmrt::table::Table;
 
     #[test]
     fn rows_that_are_added_stand_under_the_program_that_made_them() {

@@ -1,8 +1,8 @@
 //! Studies in which some runs were made by both engines: those stand for the rest, which only one made.
 
 use super::{CaseError, Claim};
-use crate::engine::EngineName;
-use crate::table::Table;
+use psmrt::engine::EngineName;
+use psmrt::table::Table;
 
 /// The words that tell a run from all others: the columns after the first, which is the engine.
 fn run<'a>(row: &'a [String], columns: &[&str]) -> &'a [String] {
@@ -47,7 +47,7 @@ pub fn twins_claim(study: &Table, columns: &[&str], column: &str) -> Result<Clai
 #[cfg(test)]
 mod tests {
     use super::{twins_claim, without_twins};
-    use crate::table::Table;
+    use psmrt::table::Table;
 
     fn study() -> Table {
         let rows = "engine,cells,outcome,CD\nreference,4,steady,1.0\nwgpu,4,steady,1.1\n\

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::kernel::{AdapterFacts, Gpu, adapters};
-use crate::{machine, provenance};
+use psmrt::kernel::{AdapterFacts, Gpu, adapters};
+use psmrt::{machine, provenance};
 
 /// Names and values of the table of the page. `golden` is the folder of the cases.
 pub(super) fn environment(

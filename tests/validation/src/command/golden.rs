@@ -1,4 +1,4 @@
-//! `psmrt golden`: the oracle's own results, compared with the reviewed ones or written anew.
+//! `cargo validate golden`: the oracle's own results, compared with the reviewed ones or written anew.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -6,15 +6,16 @@ use std::sync::Arc;
 
 use clap::Subcommand;
 
-use super::execute::interruption;
-use super::progress::Progress;
-use super::say::{say, tell};
-use super::{CommandError, write};
 use crate::cases::{Bench, CASES, Case, DRIFT_WORDS, Drift, Golden, drifts};
-use crate::output::atomic;
-use crate::provenance;
+use crate::failure::Failure;
+use psmrt::command::execute::interruption;
+use psmrt::command::progress::Progress;
+use psmrt::command::say::{say, tell};
+use psmrt::command::write;
+use psmrt::output::atomic;
+use psmrt::provenance;
 
-/// What `psmrt golden` is asked for.
+/// What `cargo validate golden` is asked for.
 #[derive(Clone, Debug, Subcommand)]
 pub enum GoldenCommand {
     /// Shows how the oracle's results differ from the reviewed ones; fails if some do
@@ -34,7 +35,7 @@ pub struct GoldenRequest {
 }
 
 /// Does it.
-pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
+pub fn golden(command: &GoldenCommand) -> Result<(), Failure> {
     let (request, writes) = match command {
         GoldenCommand::Diff(request) => (request, false),
         GoldenCommand::Write(request) => (request, true),
@@ -47,7 +48,7 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
         let wanted = request.case.as_deref().unwrap_or_default();
         let problem =
             format!("{wanted}: no case of that name runs scenes; there are {}", names.join(", "));
-        return Err(CommandError::Usage(problem));
+        return Err(Failure::usage(problem));
     }
     let interrupted = interruption();
     let mut differing = 0;
@@ -80,7 +81,7 @@ pub fn golden(command: &GoldenCommand) -> Result<(), CommandError> {
             differing += 1;
         }
     }
-    if differing > 0 && !writes { Err(CommandError::GoldenDiffers) } else { Ok(()) }
+    if differing > 0 && !writes { Err(Failure::GoldenDiffers) } else { Ok(()) }
 }
 
 /// What a reader of the file must know.
@@ -91,7 +92,7 @@ fn header(case: &Case, golden: &Golden) -> String {
          # Made by: {} golden write {}, at {}, {}; engine reference.\n\
          # Units: {}. A value may change by {}.\n",
         case.title,
-        provenance::CARGO_RUN,
+        crate::PROGRAM,
         case.name,
         provenance::program_and_files(&golden.path(""), &read),
         provenance::today(),

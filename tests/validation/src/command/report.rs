@@ -1,4 +1,4 @@
-//! `psmrt report`: every case measured on every engine at hand, judged and drawn on one page.
+//! `cargo validate report`: every case measured on every engine at hand, judged and drawn on one page.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,19 +14,20 @@ use psmrt_report::{Appendix, DataTable, Figure, Page, Section, Verdict, render_p
 use serde_json::json;
 
 use super::environment::environment;
-use super::execute::interruption;
-use super::progress::Progress;
 use super::report_files::{self, command, copies, measured};
-use super::say::{say, tell};
-use super::{CommandError, write};
 use crate::cases::{Bench, CASES, Case, CaseError, Claim, Golden, Settled, steadiness};
-use crate::engine::EngineName;
-use crate::kernel::Gpu;
-use crate::output::atomic;
-use crate::provenance;
-use crate::table::Table;
+use crate::failure::Failure;
+use psmrt::command::execute::interruption;
+use psmrt::command::progress::Progress;
+use psmrt::command::say::{say, tell};
+use psmrt::command::write;
+use psmrt::engine::EngineName;
+use psmrt::kernel::Gpu;
+use psmrt::output::atomic;
+use psmrt::provenance;
+use psmrt::table::Table;
 
-/// What `psmrt report` is asked for.
+/// What `cargo validate report` is asked for.
 #[derive(Args, Clone, Debug)]
 pub struct ReportRequest {
     /// Folder for the page, its figures and tables; earlier ones there are replaced
@@ -51,7 +52,7 @@ pub struct ReportRequest {
 }
 
 /// Makes the report. Errors if a case cannot be measured or a claim fails; the page is written first.
-pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
+pub fn report(request: &ReportRequest, json: bool) -> Result<(), Failure> {
     let start = Instant::now();
     let cases = chosen(&request.cases)?;
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
@@ -66,7 +67,7 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
         tell(&format!("{} of {}: {}", number + 1, cases.len(), case.title));
         let mut section = empty(case, request)?;
         match fill(&mut section, case, &mut benches, &mut timings, request) {
-            Err(CommandError::Case(error)) if !matches!(error, CaseError::Interrupted) => {
+            Err(Failure::Case(error)) if !matches!(error, CaseError::Interrupted) => {
                 section.verdicts = vec![broken(&error)];
             }
             other => other?,
@@ -87,7 +88,7 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
         sections,
         appendices: vec![Appendix {
             name: "errata".to_owned(),
-            markdown: include_str!("../../reference/ERRATA.md").to_owned(),
+            markdown: include_str!("../../../../reference/ERRATA.md").to_owned(),
         }],
         timings: DataTable {
             caption: format!(
@@ -113,15 +114,15 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), CommandError> {
     if request.open {
         open(&index);
     }
-    if page.holds() { Ok(()) } else { Err(CommandError::ClaimsFail) }
+    if page.holds() { Ok(()) } else { Err(Failure::ClaimsFail) }
 }
 
 /// The cases of these names, all where there are none. Errors if there is no such case.
-fn chosen(names: &[String]) -> Result<Vec<&'static Case>, CommandError> {
+fn chosen(names: &[String]) -> Result<Vec<&'static Case>, Failure> {
     if let Some(name) = names.iter().find(|name| CASES.iter().all(|case| case.name != **name)) {
         let known: Vec<_> = CASES.iter().map(|case| case.name).collect();
         let problem = format!("--case {name}: no such case; there are {}", known.join(", "));
-        return Err(CommandError::Usage(problem));
+        return Err(Failure::usage(problem));
     }
     let wanted = |case: &&Case| names.is_empty() || names.iter().any(|name| name == case.name);
     Ok(CASES.iter().filter(wanted).collect())
@@ -142,7 +143,7 @@ fn bench(
 }
 
 /// What the section of a case holds whatever its runs do.
-fn empty(case: &Case, request: &ReportRequest) -> Result<Section, CommandError> {
+fn empty(case: &Case, request: &ReportRequest) -> Result<Section, Failure> {
     Ok(Section {
         name: case.name.to_owned(),
         title: case.title.to_owned(),
@@ -164,7 +165,7 @@ fn fill(
     benches: &mut [Bench],
     timings: &mut Vec<Vec<String>>,
     request: &ReportRequest,
-) -> Result<(), CommandError> {
+) -> Result<(), Failure> {
     let golden = Golden::of(case, &request.golden);
     let (mut rows, mut read) = (Table::default(), BTreeSet::new());
     let (mut steady, mut settled) = (Vec::new(), Table::new(&SETTLED));

@@ -1,4 +1,4 @@
-//! The files beside the page of `psmrt report`: figures, rows and copies of what the cases are made from, so
+//! The files beside the page of `cargo validate report`: figures, rows and copies of what the cases are made from, so
 //! that its folder can be moved, and read without the project.
 
 use std::collections::BTreeSet;
@@ -9,11 +9,12 @@ use std::path::Path;
 use psmrt_report::{Figure, Link, write_svg};
 
 use super::report::ReportRequest;
-use super::{CommandError, write};
 use crate::cases::{Case, CaseError};
-use crate::output::atomic;
-use crate::provenance;
-use crate::table::Table;
+use crate::failure::Failure;
+use psmrt::command::write;
+use psmrt::output::atomic;
+use psmrt::provenance;
+use psmrt::table::Table;
 
 /// Where the copies are, from the page.
 const COPIES: &str = "data";
@@ -23,7 +24,7 @@ pub(super) fn copies<'a>(
     case: &Case,
     files: impl IntoIterator<Item = &'a str>,
     request: &ReportRequest,
-) -> Result<Vec<Link>, CommandError> {
+) -> Result<Vec<Link>, Failure> {
     let copy = |file: &str| {
         let own = format!("{}/{file}", case.name);
         let name = file.strip_prefix("../").unwrap_or(&own);
@@ -42,7 +43,7 @@ pub(super) fn copies<'a>(
 }
 
 /// Copies the scene files of a case: those that it runs, then the others of its folder.
-pub(super) fn scenes(case: &Case, request: &ReportRequest) -> Result<Vec<Link>, CommandError> {
+pub(super) fn scenes(case: &Case, request: &ReportRequest) -> Result<Vec<Link>, Failure> {
     let folder = fs::read_dir(request.golden.join(case.name)).map_err(CaseError::from)?;
     let names = folder.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     let is_other = |name: &String| name.ends_with(".toml") && !case.scenes.contains(&name.as_str());
@@ -51,11 +52,7 @@ pub(super) fn scenes(case: &Case, request: &ReportRequest) -> Result<Vec<Link>, 
 }
 
 /// Writes the figures of a case.
-pub(super) fn figures(
-    case: &Case,
-    figures: &[Figure],
-    out: &Path,
-) -> Result<Vec<Link>, CommandError> {
+pub(super) fn figures(case: &Case, figures: &[Figure], out: &Path) -> Result<Vec<Link>, Failure> {
     let draw = |(number, figure)| {
         let name = format!("{}_{}.svg", case.name, number + 1);
         write(&out.join(&name), |path| write_svg(figure, path))?;
@@ -71,7 +68,7 @@ pub(super) fn measured(
     rows: &Table,
     read: &BTreeSet<String>,
     request: &ReportRequest,
-) -> Result<Link, CommandError> {
+) -> Result<Link, Failure> {
     let name = format!("{}.csv", case.name);
     let text = header(case, rows, read, request) + &rows.to_csv();
     write(&request.out.join(&name), |path| {
@@ -115,7 +112,7 @@ pub(super) fn command(case: &Case, request: &ReportRequest) -> String {
     let option = |is_given: bool, option: &'static str| if is_given { option } else { "" };
     format!(
         "{} report --case {}{}{}",
-        provenance::CARGO_RUN,
+        crate::PROGRAM,
         case.name,
         option(request.full, " --full"),
         option(request.oracle_only, " --oracle-only")

@@ -1,17 +1,17 @@
-//! `psmrt stability`: where the method is stable and where it is accurate.
+//! `cargo validate stability`: where the method is stable and where it is accurate.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::CommandError;
-use super::say::say;
-use crate::engine::EngineName;
-use crate::kernel::Gpu;
-use crate::stability::record::Record;
-use crate::stability::{FLOWS, Flow, Lab, map};
+use crate::failure::Failure;
+use psmrt::command::say::say;
+use psmrt::engine::EngineName;
+use psmrt::kernel::Gpu;
+use psmrt::stability::record::Record;
+use psmrt::stability::{FLOWS, Flow, Lab, map};
 
-/// What `psmrt stability` is asked for.
+/// What `cargo validate stability` is asked for.
 #[derive(Args, Clone, Debug)]
 pub struct StabilityRequest {
     /// Flow to map, several times for several; all where absent
@@ -27,14 +27,14 @@ pub struct StabilityRequest {
 
 /// Maps the flows, on both engines where there is an adapter. Errors if a name is no flow, a record cannot
 /// be used or the device fails.
-pub fn stability(request: &StabilityRequest) -> Result<(), CommandError> {
+pub fn stability(request: &StabilityRequest) -> Result<(), Failure> {
     let wanted =
         |flow: &&Flow| request.flows.is_empty() || request.flows.iter().any(|w| w == flow.name);
     if let Some(unknown) = request.flows.iter().find(|w| FLOWS.iter().all(|flow| flow.name != **w))
     {
         let known: Vec<&str> = FLOWS.iter().map(|flow| flow.name).collect();
         let problem = format!("there is no flow {unknown:?}; there are {}", known.join(", "));
-        return Err(CommandError::Usage(problem));
+        return Err(Failure::usage(problem));
     }
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
     if gpu.is_none() {

@@ -1,4 +1,4 @@
-//! `psmrt tradeoff`: sweeps the parameters of scenes on flows with known answers.
+//! `cargo validate tradeoff`: sweeps the parameters of scenes on flows with known answers.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -8,22 +8,24 @@ use clap::Args;
 use psmrt_report::write_svg;
 use serde_json::json;
 
-use super::say::{say, tell};
-use super::{CommandError, write};
 use crate::cases::CaseError;
-use crate::kernel::Gpu;
-use crate::output::atomic;
-use crate::table::Table;
-use crate::tradeoff::evidence::{grain_points, wall_points};
-use crate::tradeoff::knobs::{Flow, Knobs};
+use crate::failure::Failure;
 use crate::tradeoff::measure::Runner;
-use crate::tradeoff::model::Models;
-use crate::tradeoff::record::{Record, Row};
+use crate::tradeoff::record::Record;
 use crate::tradeoff::sweep::runs;
-use crate::tradeoff::trial::trials;
 use crate::tradeoff::{cost, effects, figures, tables};
+use psmrt::command::say::{say, tell};
+use psmrt::command::write;
+use psmrt::kernel::Gpu;
+use psmrt::output::atomic;
+use psmrt::table::Table;
+use psmrt::tradeoff::evidence::{grain_points, wall_points};
+use psmrt::tradeoff::knobs::{Flow, Knobs};
+use psmrt::tradeoff::model::Models;
+use psmrt::tradeoff::row::Row;
+use psmrt::tradeoff::trial::trials;
 
-/// What `psmrt tradeoff` is asked for.
+/// What `cargo validate tradeoff` is asked for.
 #[derive(Args, Clone, Debug)]
 pub struct TradeoffRequest {
     /// One flow: poiseuille, sc, bcc, fcc, sphere_drag, settling, seepage or random [default: all]
@@ -46,7 +48,7 @@ pub struct TradeoffRequest {
 }
 
 /// Makes the runs that are not there yet. Errors if one cannot be made.
-pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), CommandError> {
+pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), Failure> {
     let wanted = wanted(request)?;
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
     let mut runner = Runner::new(&request.golden, gpu.clone())?;
@@ -56,7 +58,7 @@ pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), CommandErro
         ("sweep.csv", "")
     };
     let header = format!(
-        "# Error and cost of runs with known answers: psmrt tradeoff{what} --out DIR\n\
+        "# Error and cost of runs with known answers: cargo validate tradeoff{what} --out DIR\n\
          # Lattice units. error: relative, of the superficial velocity under a given force (arrays, sphere\n\
          # drag, seepage), of the settling velocity, or of the profile (poiseuille, L2). drag: exact drag over\n\
          # Stokes'. seconds: of one run on a machine that may be shared; compare cell_updates.\n"
@@ -93,10 +95,10 @@ fn summarise(
     request: &TradeoffRequest,
     gpu: Option<&Arc<Gpu>>,
     rows: &[Row],
-) -> Result<(), CommandError> {
+) -> Result<(), Failure> {
     let file = |name: &str| request.out.join(name);
     let save = |name: &str, comment: &str, table: &Table| {
-        let text = format!("# {comment}: psmrt tradeoff --out DIR\n{}", table.to_csv());
+        let text = format!("# {comment}: cargo validate tradeoff --out DIR\n{}", table.to_csv());
         write(&file(name), |path| atomic::write(path, |out| out.write_all(text.as_bytes())))
     };
     let costs = if file("cost.csv").exists() {
@@ -153,7 +155,7 @@ fn words(row: &Row) -> String {
     )
 }
 
-fn wanted(request: &TradeoffRequest) -> Result<Vec<Knobs>, CommandError> {
+fn wanted(request: &TradeoffRequest) -> Result<Vec<Knobs>, Failure> {
     if request.held_back {
         let table = Table::read(&request.golden.join("tradeoff/held_back.csv"))?;
         return Ok(table.rows.iter().map(|row| Knobs::from_row(row)).collect::<Result<_, _>>()?);
@@ -162,7 +164,7 @@ fn wanted(request: &TradeoffRequest) -> Result<Vec<Knobs>, CommandError> {
         None => Flow::ALL.to_vec(),
         Some(word) => vec![Flow::from_word(word).ok_or_else(|| {
             let names = Flow::ALL.map(Flow::word).join(", ");
-            CommandError::Usage(format!("case {word:?}: there is no such flow; there are {names}"))
+            Failure::usage(format!("case {word:?}: there is no such flow; there are {names}"))
         })?],
     };
     Ok(flows.into_iter().flat_map(|flow| runs(flow, request.quick)).collect())

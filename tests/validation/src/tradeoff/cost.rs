@@ -7,15 +7,12 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::knobs::{Flow, Knobs};
 use crate::cases::{Bench, CaseError};
-use crate::engine::{self, Engine};
-use crate::kernel::Gpu;
-use crate::scene::preset_changes;
-use crate::table::Table;
-
-/// The committed figures, part of the program.
-const COMMITTED: &str = include_str!("../../golden/tradeoff/cost.csv");
+use psmrt::engine::{self, Engine};
+use psmrt::kernel::Gpu;
+use psmrt::scene::preset_changes;
+use psmrt::table::Table;
+use psmrt::tradeoff::knobs::{Flow, Knobs};
 
 /// Rounds, and how long one scene runs in each: short enough to fall between what else the machine does.
 const ROUNDS: usize = 80;
@@ -107,15 +104,4 @@ pub fn seconds_per_update(costs: &Table, knobs: &Knobs) -> Result<f64, CaseError
     let wanted =
         [("engine", &*knobs.engine), ("collision", collision.word()), ("scene", kind(knobs.flow))];
     Ok(1e-9 * costs.with(&wanted)?.number("ns_per_cell_update")?)
-}
-
-/// Cost of many relaxation times over that of a single one, on an engine, in a bed: from the committed
-/// figures.
-pub fn mrt_over_srt(engine: &str) -> Result<f64, CaseError> {
-    let costs = Table::parse("golden/tradeoff/cost.csv", COMMITTED)?;
-    let of = |collision: Preset| {
-        let wanted = [("engine", engine), ("collision", collision.word()), ("scene", "bed")];
-        costs.with(&wanted)?.number("ns_per_cell_update")
-    };
-    Ok(of(Preset::DHumieres)? / of(Preset::Srt)?)
 }

@@ -1,8 +1,8 @@
 //! What one knob alone does: runs beside the run that differs in nothing else and has the default.
 
-use super::knobs::{Flow, Knobs, Storage};
-use super::record::Row;
-use crate::table::Table;
+use psmrt::table::Table;
+use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
+use psmrt::tradeoff::row::Row;
 use psmrt_reference::collision::Preset;
 
 /// A knob, turned.

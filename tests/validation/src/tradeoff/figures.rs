@@ -5,11 +5,11 @@ use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::cost::seconds_per_update;
 use super::front::front;
-use super::knobs::{Flow, Storage};
-use super::record::Row;
-use super::trial::{Trial, score};
 use crate::cases::CaseError;
-use crate::table::Table;
+use psmrt::table::Table;
+use psmrt::tradeoff::knobs::{Flow, Storage};
+use psmrt::tradeoff::row::Row;
+use psmrt::tradeoff::trial::{Trial, score};
 
 /// Errors below this are drawn at it: a log axis has no zero.
 const FLOOR: f64 = 1e-8;

@@ -6,17 +6,17 @@ use std::time::Instant;
 
 use psmrt_reference::lattice::viscosity;
 
-use super::knobs::{Flow, Knobs};
-use super::record::Row;
 use super::setting::{Literature, Setting};
 use super::storage::RoundedEngine;
 use crate::cases::{Bench, CaseError, Finished};
-use crate::engine::Engine;
-use crate::exact::Comparison;
-use crate::kernel::Gpu;
-use crate::output::records::profile_rows;
-use crate::run::{End, RunError};
-use crate::scene::check::records::middle;
+use psmrt::engine::Engine;
+use psmrt::exact::Comparison;
+use psmrt::kernel::Gpu;
+use psmrt::output::records::profile_rows;
+use psmrt::run::{End, RunError};
+use psmrt::scene::check::records::middle;
+use psmrt::tradeoff::knobs::{Flow, Knobs};
+use psmrt::tradeoff::row::Row;
 use std::sync::Arc;
 
 /// Bytes that an engine keeps per cell for populations: two copies of 19 of 8 or 4 bytes.

@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use psmrt_reference::lattice::viscosity;
 
-use super::knobs::{Flow, Knobs, Storage};
 use crate::cases::CaseError;
-use crate::scene::preset_changes;
-use crate::table::Table;
+use psmrt::scene::preset_changes;
+use psmrt::table::Table;
+use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
 
 /// Viscosity of all scenes, m2/s.
 const SI_VISCOSITY: f64 = 1e-6;

@@ -14,9 +14,9 @@ use psmrt_reference::setup::SetupError;
 use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::Solver;
 
-use super::knobs::Storage;
-use crate::engine::{BoxMeans, CellState, Engine, EngineStop};
-use crate::scene::Scene;
+use psmrt::engine::{BoxMeans, CellState, Engine, EngineStop};
+use psmrt::scene::Scene;
+use psmrt::tradeoff::knobs::Storage;
 
 /// The oracle with populations rounded after every step; fluid and held grains only.
 #[derive(Debug)]

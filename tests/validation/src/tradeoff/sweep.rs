@@ -1,6 +1,6 @@
 //! Which runs a sweep makes: cheap ones first.
 
-use super::knobs::{Flow, Knobs, Storage};
+use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
 use psmrt_reference::collision::Preset;
 
 use Preset::{DHumieres, Srt, Trt};

@@ -1,12 +1,12 @@
 //! What is made of the rows of a sweep: fits, fronts, and predictions beside measurements, as tables.
 
-use super::evidence::SolidKnob;
 use super::figures::{on_front, placed, problems};
-use super::knobs::COLUMNS;
-use super::model::Models;
-use super::record::Row;
-use super::trial::Trial;
-use crate::table::Table;
+use psmrt::table::Table;
+use psmrt::tradeoff::evidence::SolidKnob;
+use psmrt::tradeoff::knobs::COLUMNS;
+use psmrt::tradeoff::model::Models;
+use psmrt::tradeoff::row::Row;
+use psmrt::tradeoff::trial::Trial;
 use psmrt_reference::collision::Preset;
 
 /// The models with their parameters, standard errors and bands.

@@ -1,15 +1,12 @@
 //! The acceptance cases on the kernel: the same scenes and the same claims as on the oracle.
 
-mod common;
-mod trials;
-
-use common::Budget;
-use psmrt::cases::{Bench, CASES, Golden, steadiness};
+use crate::common::Budget;
+use crate::trials::{self, Claim};
+use psmrt_validation::cases::{Bench, CASES, Golden, steadiness};
 use std::path::Path;
-use std::process::ExitCode;
 
 fn holds(name: &str, budget: &mut Budget) {
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../golden");
     let case = CASES.iter().find(|case| case.name == name).unwrap();
     let mut bench = Bench::new(&golden, Some(trials::gpu().unwrap()), |_| {});
     let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -57,16 +54,15 @@ fn a_settling_cloud_holds_its_claims() {
     holds("cloud_settling", &mut Budget::kernel(66_000_000));
 }
 
-fn main() -> ExitCode {
-    trials::run(&[
-        ("poiseuille_flow_holds_its_claims", poiseuille_flow_holds_its_claims),
-        ("flow_in_a_duct_holds_its_claims", flow_in_a_duct_holds_its_claims),
-        ("a_sphere_in_a_stream_holds_its_claims", a_sphere_in_a_stream_holds_its_claims),
-        ("seepage_through_a_bed_holds_its_claims", seepage_through_a_bed_holds_its_claims),
-        ("sphere_arrays_hold_their_claims", sphere_arrays_hold_their_claims),
-        ("a_settling_grain_holds_its_claims", a_settling_grain_holds_its_claims),
-        ("a_settling_suspension_holds_its_claims", a_settling_suspension_holds_its_claims),
-        ("a_sphere_in_a_tank_holds_its_claims", a_sphere_in_a_tank_holds_its_claims),
-        ("a_settling_cloud_holds_its_claims", a_settling_cloud_holds_its_claims),
-    ])
-}
+/// The trials.
+pub const CLAIMS: &[Claim] = &[
+    ("poiseuille_flow_holds_its_claims", poiseuille_flow_holds_its_claims),
+    ("flow_in_a_duct_holds_its_claims", flow_in_a_duct_holds_its_claims),
+    ("a_sphere_in_a_stream_holds_its_claims", a_sphere_in_a_stream_holds_its_claims),
+    ("seepage_through_a_bed_holds_its_claims", seepage_through_a_bed_holds_its_claims),
+    ("sphere_arrays_hold_their_claims", sphere_arrays_hold_their_claims),
+    ("a_settling_grain_holds_its_claims", a_settling_grain_holds_its_claims),
+    ("a_settling_suspension_holds_its_claims", a_settling_suspension_holds_its_claims),
+    ("a_sphere_in_a_tank_holds_its_claims", a_sphere_in_a_tank_holds_its_claims),
+    ("a_settling_cloud_holds_its_claims", a_settling_cloud_holds_its_claims),
+];

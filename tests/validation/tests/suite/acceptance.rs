@@ -1,14 +1,12 @@
 //! The acceptance cases on the oracle: every claim holds, no value has drifted, and no case lacks a part.
-//! (On the kernel: `tests/acceptance_kernel.rs`.)
+//! (On the kernel: `tests/device`.)
 
-mod common;
-
-use common::Budget;
-use psmrt::cases::{Bench, CASES, Case, CaseError, Claim, Golden, drifts, steadiness};
+use crate::common::Budget;
+use psmrt_validation::cases::{Bench, CASES, Case, CaseError, Claim, Golden, drifts, steadiness};
 use std::path::Path;
 
 fn golden() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/golden"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden"))
 }
 
 fn case(name: &str) -> &'static Case {
@@ -32,7 +30,7 @@ fn holds(name: &str, budget: &mut Budget) {
     }
     if !case.scenes.is_empty() {
         let found = drifts(&files.table(case.rows).unwrap(), &rows);
-        assert!(found.is_empty(), "{name}: look at `psmrt golden diff {name}`: {found:?}");
+        assert!(found.is_empty(), "{name}: look at `cargo validate golden diff {name}`: {found:?}");
     }
     assert!(!(case.draw)(&files, &rows).unwrap().is_empty(), "{name} draws nothing");
 }

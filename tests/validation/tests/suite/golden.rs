@@ -1,26 +1,24 @@
-//! `psmrt golden`: what has drifted is shown with its tolerance, and what is written says where it comes from.
+//! `cargo validate golden`: what has drifted is shown with its tolerance, and what is written says where it comes from.
 
-mod common;
-
-use common::Budget;
-use psmrt::cases::CASES;
+use crate::common::Budget;
 use psmrt::table::Table;
+use psmrt_validation::cases::CASES;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-/// Cell updates of the case `poiseuille` on the oracle, which `tests/acceptance.rs` counts.
+/// Cell updates of the case `poiseuille` on the oracle, which `acceptance.rs` counts.
 const POISEUILLE: u64 = 2_800_000;
 
 fn golden(arguments: &[&str], folder: &Path) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_psmrt"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_validate"));
     command.arg("golden").args(arguments).arg("--golden").arg(folder).output().unwrap()
 }
 
 /// A copy of the files of a case, outside any checkout.
 fn copy(case: &str) -> tempfile::TempDir {
     let temp = tempfile::tempdir().unwrap();
-    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(case);
+    let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../golden").join(case);
     let to = temp.path().join(case);
     fs::create_dir(&to).unwrap();
     for entry in fs::read_dir(from).unwrap().map(|entry| entry.unwrap()) {
@@ -78,8 +76,10 @@ fn an_unknown_case_is_refused_with_those_that_there_are() {
 fn every_reviewed_table_of_the_oracle_says_its_command_its_day_and_the_units_of_its_case() {
     let mut seen = 0;
     for case in CASES.iter().filter(|case| !case.scenes.is_empty()) {
-        let path =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(case.name).join(case.rows);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("../../golden")
+            .join(case.name)
+            .join(case.rows);
         let text = fs::read_to_string(&path).unwrap();
         let name = path.display();
         assert!(text.contains(&format!("# Units: {}.", case.units)), "{name}: other units");

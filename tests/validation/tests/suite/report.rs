@@ -1,8 +1,6 @@
-//! `psmrt report`: a folder that needs nothing else, and says what it was made with.
+//! `cargo validate report`: a folder that needs nothing else, and says what it was made with.
 
-mod common;
-
-use common::Budget;
+use crate::common::Budget;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -17,9 +15,11 @@ fn links(html: &str) -> Vec<&str> {
 fn the_folder_of_a_report_holds_all_that_its_page_links_and_says_where_it_comes_from() {
     let temp = tempfile::tempdir().unwrap();
     let mut budget = Budget::oracle(2_800_000);
-    budget.spend(2_800_000); // of poiseuille, as in tests/acceptance.rs
-    let mut command = Command::new(env!("CARGO_BIN_EXE_psmrt"));
-    command.current_dir(env!("CARGO_MANIFEST_DIR")).args(["report", "--oracle-only"]);
+    budget.spend(2_800_000); // of poiseuille, as in acceptance.rs
+    let mut command = Command::new(env!("CARGO_BIN_EXE_validate"));
+    command
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .args(["report", "--oracle-only"]);
     for case in ["poiseuille", "stability", "tradeoff"] {
         command.args(["--case", case]);
     }
@@ -43,7 +43,7 @@ fn the_folder_of_a_report_holds_all_that_its_page_links_and_says_where_it_comes_
     ] {
         assert!(found.contains(&link), "no link to {link} in {found:?}");
     }
-    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../golden");
     for copy in ["stability/movers.csv", "poiseuille/scene.toml"] {
         let same = fs::read(golden.join(copy)).unwrap();
         assert!(fs::read(temp.path().join("data").join(copy)).unwrap() == same, "{copy}");

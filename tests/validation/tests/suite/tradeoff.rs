@@ -1,33 +1,30 @@
 //! The trade-off study: its fits, fronts and files, and that its committed tables are what its rows make.
 
-mod cli;
-mod common;
-
-use cli::Folder;
-use common::{Budget, golden_rows};
+use crate::common::{Budget, golden_rows};
 use proptest::prelude::*;
-use psmrt::cases::{CASES, Golden};
 use psmrt::table::Table;
-use psmrt::tradeoff::effects;
 use psmrt::tradeoff::evidence::{
     GrainPoint, SolidKnob, committed_sweep, grain_points, wall_points,
 };
-use psmrt::tradeoff::front::front;
 use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
-use psmrt::tradeoff::measure::Runner;
 use psmrt::tradeoff::model::{GrainModel, Models};
 use psmrt::tradeoff::model_eps::EpsModel;
-use psmrt::tradeoff::record::{Record, Row};
-use psmrt::tradeoff::storage::half;
-use psmrt::tradeoff::sweep::runs;
-use psmrt::tradeoff::tables;
+use psmrt::tradeoff::row::Row;
 use psmrt::tradeoff::trial::{committed_results, score, trials};
 use psmrt_reference::collision::Preset;
 use psmrt_report::render_svg;
+use psmrt_validation::cases::{CASES, Golden};
+use psmrt_validation::tradeoff::effects;
+use psmrt_validation::tradeoff::front::front;
+use psmrt_validation::tradeoff::measure::Runner;
+use psmrt_validation::tradeoff::record::Record;
+use psmrt_validation::tradeoff::storage::half;
+use psmrt_validation::tradeoff::sweep::runs;
+use psmrt_validation::tradeoff::tables;
 use std::fs;
 use std::path::Path;
 
-const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/golden");
+const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
 
 /// Points of the model `K^0.8 [4 (τ - 1/2)/d² + 3/d³]`, each off by a factor `exp(noise)`.
 fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
@@ -171,8 +168,8 @@ fn knobs_read_back_as_they_were_written() {
 
 #[test]
 fn a_sweep_goes_on_after_it_was_cut_off_and_refuses_a_foreign_file() {
-    let folder = Folder::new("tradeoff_record");
-    let file = folder.path("sweep.csv");
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("sweep.csv");
     let rows = committed_sweep().unwrap();
     let mut record = Record::open(&file, "# a header\n").unwrap();
     for row in &rows[..2] {
@@ -188,7 +185,8 @@ fn a_sweep_goes_on_after_it_was_cut_off_and_refuses_a_foreign_file() {
     let read = Record::open(&file, "").unwrap().rows;
     assert_eq!(read[2].knobs, rows[2].knobs);
 
-    let foreign = folder.write("foreign.csv", "a,b\n1,2\n");
+    let foreign = folder.path().join("foreign.csv");
+    fs::write(&foreign, "a,b\n1,2\n").unwrap();
     let error = Record::open(&foreign, "").unwrap_err().to_string();
     assert!(error.contains("foreign.csv") && error.contains("columns"), "{error}");
     assert_eq!(fs::read_to_string(&foreign).unwrap(), "a,b\n1,2\n");
@@ -295,7 +293,7 @@ fn committed_tables_are_what_the_committed_rows_make() {
         assert_eq!(
             golden(name),
             made,
-            "{name}: make it anew with psmrt tradeoff --out golden/tradeoff"
+            "{name}: make it anew with cargo validate tradeoff --out golden/tradeoff"
         );
     }
 }

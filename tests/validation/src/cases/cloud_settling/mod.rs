@@ -6,7 +6,7 @@ use psmrt_report::{Axis, Figure, Series};
 
 use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::table::Table;
+use psmrt::table::Table;
 
 /// A settling cloud.
 pub const CASE: Case = Case {

@@ -3,7 +3,7 @@
 use psmrt_report::{Axis, Figure, Series, Style};
 
 use super::{Case, CaseError, Claim, Golden};
-use crate::table::{Table, TableError};
+use psmrt::table::{Table, TableError};
 
 /// What each model costs.
 pub const CASE: Case = Case {

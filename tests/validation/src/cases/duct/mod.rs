@@ -5,9 +5,9 @@ use psmrt_report::{Axis, Figure, PowerLaw};
 
 use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::engine::EngineName;
-use crate::scene::preset_changes;
-use crate::table::Table;
+use psmrt::engine::EngineName;
+use psmrt::scene::preset_changes;
+use psmrt::table::Table;
 
 /// Flow in a square duct.
 pub const CASE: Case = Case {

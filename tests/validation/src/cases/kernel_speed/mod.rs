@@ -3,7 +3,7 @@
 use psmrt_report::{Axis, Figure, Series};
 
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::table::Table;
+use psmrt::table::Table;
 
 /// The kernel's speed.
 pub const CASE: Case = Case {

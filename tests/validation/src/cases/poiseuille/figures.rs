@@ -3,11 +3,11 @@
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, PowerLaw, Series};
 
-use super::CaseError;
-use super::found::found;
-use super::poiseuille::{WALLS, by_grid, by_tau};
-use crate::engine::EngineName;
-use crate::table::Table;
+use super::{WALLS, by_grid, by_tau};
+use crate::cases::CaseError;
+use crate::cases::found::found;
+use psmrt::engine::EngineName;
+use psmrt::table::Table;
 
 /// All of them; `walls` says where walls are known to stand.
 pub fn all(walls: &Table, rows: &Table) -> Result<Vec<Figure>, CaseError> {

@@ -1,15 +1,17 @@
 //! Flow between two plates, against its parabola.
 
+pub(super) mod figures;
+
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
 
-use super::{Bench, Case, CaseError, Claim, Golden, poiseuille_figures};
-use crate::engine::EngineName;
-use crate::exact::Comparison;
-use crate::output::records::profile_rows;
-use crate::scene::check::records::middle;
-use crate::scene::preset_changes;
-use crate::table::Table;
+use super::{Bench, Case, CaseError, Claim, Golden};
+use psmrt::engine::EngineName;
+use psmrt::exact::Comparison;
+use psmrt::output::records::profile_rows;
+use psmrt::scene::check::records::middle;
+use psmrt::scene::preset_changes;
+use psmrt::table::Table;
 
 /// Plane Poiseuille flow.
 pub const CASE: Case = Case {
@@ -262,5 +264,5 @@ fn wall_claim(engine: &str, walls: &Table, rows: &Table) -> Result<Claim, CaseEr
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
-    poiseuille_figures::all(&golden.table("bounceback_wall.csv")?, rows)
+    figures::all(&golden.table("bounceback_wall.csv")?, rows)
 }

@@ -9,10 +9,10 @@ use psmrt_reference::grains::setup::PeriodicBox;
 use psmrt_reference::lattice::viscosity;
 use psmrt_reference::solids::{Shape, Solid};
 
-use super::bench::Finished;
-use super::{Bench, CaseError};
-use crate::run::RunError;
-use crate::scene::preset_changes;
+use crate::cases::bench::Finished;
+use crate::cases::{Bench, CaseError};
+use psmrt::run::RunError;
+use psmrt::scene::preset_changes;
 
 /// Diameter, m, and viscosity, m2/s, of the scene.
 const SI_DIAMETER: f64 = 1.6e-4;

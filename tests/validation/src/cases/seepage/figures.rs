@@ -3,11 +3,12 @@
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
-use super::found::found;
-use super::seepage::over_law;
-use super::seepage_study::{grids, largest_stable, steady, taus};
-use super::{BED_LAWS, CaseError, seepage_inlet};
-use crate::table::Table;
+use super::inlet;
+use super::over_law;
+use super::study::{grids, largest_stable, steady, taus};
+use crate::cases::found::found;
+use crate::cases::{BED_LAWS, CaseError};
+use psmrt::table::Table;
 
 /// Solid fraction at which the laws are drawn.
 const FRACTION: f64 = 0.6;
@@ -208,7 +209,7 @@ fn stability_figure(stability: &Table, inlet: &Table) -> Result<Figure, CaseErro
     let across = |y: f64| vec![(0.0008, y), (0.2, y)];
     let doubling = |bed| {
         let taus = (0..=40).map(|i| 0.0008 * 250.0_f64.powf(f64::from(i) / 40.0));
-        let curve = taus.map(|above| (above, seepage_inlet::doubling(above, bed)));
+        let curve = taus.map(|above| (above, inlet::doubling(above, bed)));
         curve.filter(|p| p.1 < 500.0).collect::<Vec<_>>()
     };
     // Rings for SRT, crosses for MRT.
@@ -229,13 +230,13 @@ fn stability_figure(stability: &Table, inlet: &Table) -> Result<Figure, CaseErro
         }
     }
     for (collision, name, marker) in kinds {
-        let points = seepage_inlet::limits(inlet, "wgpu", collision)?;
+        let points = inlet::limits(inlet, "wgpu", collision)?;
         let series = Series::new(format!("{name}, by inlet"), Style::Points(Some(marker)), points);
         figure = figure.with(series.with_colour(6));
     }
     Ok(figure
-        .with(Series::dashed("twice the density: paper", doubling(seepage_inlet::PAPER)).with_colour(6))
-        .with(Series::line("twice the density: inlet.toml", doubling(seepage_inlet::SMALL)).with_colour(6))
+        .with(Series::dashed("twice the density: paper", doubling(inlet::PAPER)).with_colour(6))
+        .with(Series::line("twice the density: inlet.toml", doubling(inlet::SMALL)).with_colour(6))
         .with(Series::dashed("the paper, MRT: 30", across(30.0)).with_colour(1))
         .with(Series::dashed("the paper, SRT: 2", across(2.0)).with_colour(0))
         .note("points: the next run, with twice the force, was stopped, or Re was past 200 already")

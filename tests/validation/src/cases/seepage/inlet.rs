@@ -1,7 +1,7 @@
 //! A bed under a velocity inlet with free outflow, the paper's drive: how fast the water can enter.
 
-use super::{BED_LAWS, CaseError, Claim};
-use crate::table::Table;
+use crate::cases::{BED_LAWS, CaseError, Claim};
+use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 
 /// Height of the bed of `inlet.toml`, cells, and of the paper's; diameters, cells.

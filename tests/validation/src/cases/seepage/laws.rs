@@ -63,7 +63,7 @@ fn tang(phi: f64, re: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::BED_LAWS;
-    use crate::table::Table;
+    use psmrt::table::Table;
     use std::path::Path;
 
     #[test]

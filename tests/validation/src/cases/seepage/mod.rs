@@ -1,14 +1,17 @@
 //! Seepage through a packed bed of spheres: the paper's section 6.
 
+pub(super) mod bed;
+pub(super) mod figures;
+pub(super) mod inlet;
+pub(super) mod laws;
+pub(super) mod study;
+
 use psmrt_reference::collision::Preset;
 use psmrt_report::Figure;
 
-use super::packed_bed::FCC_FRACTION;
-use super::{
-    BED_LAWS, Bed, Bench, Case, CaseError, Claim, Golden, Packing, seepage_figures, seepage_inlet,
-    seepage_study,
-};
-use crate::table::Table;
+use super::{BED_LAWS, Bed, Bench, Case, CaseError, Claim, Golden, Packing};
+use bed::FCC_FRACTION;
+use psmrt::table::Table;
 
 /// A packed bed.
 pub const CASE: Case = Case {
@@ -153,14 +156,14 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         });
     }
     let (study, stability) = (golden.table("study.csv")?, golden.table("stability.csv")?);
-    claims.extend(seepage_study::claims(&study, &stability, exact)?);
+    claims.extend(study::claims(&study, &stability, exact)?);
     let [inlet, paper] = [golden.table("inlet.csv")?, golden.table("paper.csv")?];
-    claims.extend(seepage_inlet::claims(&inlet, &paper)?);
+    claims.extend(inlet::claims(&inlet, &paper)?);
     Ok(claims)
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let (study, stability) = (golden.table("study.csv")?, golden.table("stability.csv")?);
     let inlet = golden.table("inlet.csv")?;
-    seepage_figures::all(rows, &study, [&stability, &inlet], ordered(golden)?)
+    figures::all(rows, &study, [&stability, &inlet], ordered(golden)?)
 }

@@ -1,10 +1,10 @@
 //! The full form of seepage: what its rows say of beds, grids, relaxation times and stability.
 
-use super::seepage::{over, over_law};
-use super::sphere_drag_study::without_grid;
-use super::twins::{twins_claim, without_twins};
-use super::{BED_LAWS, Bed, CaseError, Claim, steadiness};
-use crate::table::Table;
+use super::{over, over_law};
+use crate::cases::sphere_drag::study::without_grid;
+use crate::cases::twins::{twins_claim, without_twins};
+use crate::cases::{BED_LAWS, Bed, CaseError, Claim, steadiness};
+use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 
 /// What tells a run from all others.

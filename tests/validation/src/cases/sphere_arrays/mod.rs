@@ -8,10 +8,10 @@ use psmrt_report::{Axis, Figure, PowerLaw, Series};
 
 use super::bench::Finished;
 use super::found::found;
-use super::sphere_drag_study::without_grid;
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::engine::EngineName;
-use crate::table::Table;
+use crate::cases::sphere_drag::study::without_grid;
+use psmrt::engine::EngineName;
+use psmrt::table::Table;
 
 /// Regular arrays of spheres.
 pub const CASE: Case = Case {

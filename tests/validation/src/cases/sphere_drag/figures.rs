@@ -3,11 +3,11 @@
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
-use super::CaseError;
-use super::found::found;
-use super::sphere_drag::Known;
-use super::sphere_drag_study::{self, Blockage, VARIED, Varied};
-use crate::table::Table;
+use super::Known;
+use super::study::{self, Blockage, VARIED, Varied};
+use crate::cases::CaseError;
+use crate::cases::found::found;
+use psmrt::table::Table;
 
 /// All of them: `rows` of the quick form, and those of the study.
 pub fn all(known: &Known, rows: &Table, study: &Table) -> Result<Vec<Figure>, CaseError> {
@@ -40,12 +40,12 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
         ("collision", Preset::Srt.word()),
         ("width_d", "5"),
     ])?;
-    let main = sphere_drag_study::main_taus(&srt)?;
+    let main = study::main_taus(&srt)?;
     all.push(Series::points(
         "study, SRT, 6 cells",
         main.with(&[("cells_per_diameter", "6")])?.points("Re", "CD")?,
     ));
-    let mrt = sphere_drag_study::main_taus(&sphere_drag_study::steady(study)?)?;
+    let mrt = study::main_taus(&study::steady(study)?)?;
     let mrt = mrt.with(&[("width_d", "5")])?;
     for cells in ["6", "8", "12", "16"] {
         let own = mrt.with(&[("cells_per_diameter", cells)])?;

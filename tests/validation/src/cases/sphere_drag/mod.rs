@@ -1,11 +1,16 @@
 //! The drag of a sphere in a stream: the paper's section 5.
 
+pub(super) mod figures;
+pub(super) mod others;
+pub(super) mod stream;
+pub(super) mod study;
+
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
 
 use super::{Bench, Case, CaseError, Claim, Golden, Stream};
-use super::{sphere_drag_figures, sphere_drag_study};
-use crate::table::Table;
+
+use psmrt::table::Table;
 
 /// A sphere in a stream.
 pub const CASE: Case = Case {
@@ -164,10 +169,10 @@ fn quick(engine: &str, known: &Known, rows: &Table) -> Result<Vec<Claim>, CaseEr
 
 /// The claims of the study.
 fn full(known: &Known, study: &Table) -> Result<Vec<Claim>, CaseError> {
-    sphere_drag_study::claims(study, known.duct, |reynolds| known.open(reynolds))
+    study::claims(study, known.duct, |reynolds| known.open(reynolds))
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let (known, study) = (Known::of(golden)?, golden.table("study.csv")?);
-    sphere_drag_figures::all(&known, rows, &study)
+    figures::all(&known, rows, &study)
 }

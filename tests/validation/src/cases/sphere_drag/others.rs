@@ -3,9 +3,9 @@
 use psmrt_reference::collision::Preset;
 use psmrt_report::PowerLaw;
 
-use super::sphere_drag_study::{Blockage, TAUS, VARIED, Varied, grids, steady, without_grid};
-use super::{CaseError, Claim};
-use crate::table::Table;
+use super::study::{Blockage, TAUS, VARIED, Varied, grids, steady, without_grid};
+use crate::cases::{CaseError, Claim};
+use psmrt::table::Table;
 
 /// Those whose box was not varied.
 const UNVARIED: [&str; 3] = ["30", "50", "150"];

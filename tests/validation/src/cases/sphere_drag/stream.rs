@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use psmrt_reference::collision::Preset;
 use psmrt_reference::lattice::viscosity;
 
-use super::{Bench, CaseError};
-use crate::run::RunError;
-use crate::scene::preset_changes;
+use crate::cases::{Bench, CaseError};
+use psmrt::run::RunError;
+use psmrt::scene::preset_changes;
 
 /// Diameter, m, and viscosity, m2/s, of the scene.
 const SI_DIAMETER: f64 = 3e-4;

@@ -1,9 +1,9 @@
 //! The full form of the sphere in a stream: grids and widths extrapolated.
 
-use super::sphere_drag_others as others;
-use super::twins::{twins_claim, without_twins};
-use super::{CaseError, Claim, Stream, steadiness};
-use crate::table::Table;
+use super::others;
+use crate::cases::twins::{twins_claim, without_twins};
+use crate::cases::{CaseError, Claim, Stream, steadiness};
+use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 
 /// What tells a run from all others.

@@ -2,9 +2,9 @@
 
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
-use super::stability::{COLLISIONS, mrt_over_srt, points, single_and_double};
-use super::{CaseError, Golden};
-use crate::table::Table;
+use super::{COLLISIONS, mrt_over_srt, points, single_and_double};
+use crate::cases::{CaseError, Golden};
+use psmrt::table::Table;
 
 /// The figure with a series, if that has points.
 fn with_points(figure: Figure, series: Series) -> Figure {

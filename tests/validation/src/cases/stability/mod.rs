@@ -1,10 +1,12 @@
 //! Stability at the extremes: how far each collision is stable and accurate, from the maps of
 //! `psmrt stability`.
 
-use super::stability_figures::draw;
+pub(super) mod figures;
+
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::stability::limits::{Frontier, frontiers};
-use crate::table::Table;
+use figures::draw;
+use psmrt::stability::limits::{Frontier, frontiers};
+use psmrt::table::Table;
 
 /// Stability at the extremes.
 pub const CASE: Case = Case {

@@ -4,8 +4,8 @@ use psmrt_report::{Axis, Figure, Series};
 
 use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::run::steady::History;
-use crate::table::Table;
+use psmrt::run::steady::History;
+use psmrt::table::Table;
 
 /// Slow settling.
 pub const CASE: Case = Case {
@@ -61,7 +61,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
 }
 
 /// Velocity of the grain alone in an endless fluid, m/s.
-fn stokes_velocity(scene: &crate::scene::Scene) -> Result<f64, CaseError> {
+fn stokes_velocity(scene: &psmrt::scene::Scene) -> Result<f64, CaseError> {
     let part = scene.free.as_ref();
     let grain = part.and_then(|part| Some((part.grains.first()?, part.settings.gravity?)));
     let Some((grain, psmrt_reference::coupling::Gravity::Reduced { acceleration })) = grain else {

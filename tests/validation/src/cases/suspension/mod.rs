@@ -4,7 +4,7 @@ use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::table::Table;
+use psmrt::table::Table;
 
 /// Hindered settling.
 pub const CASE: Case = Case {

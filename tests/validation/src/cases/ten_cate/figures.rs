@@ -2,11 +2,11 @@
 
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
-use super::found::found;
-use super::ten_cate::{EXPERIMENTS, OWN, differences, measured};
-use super::ten_cate_study::{WITHOUT_ORDER, order_and_limit};
-use super::{CaseError, Golden};
-use crate::table::Table;
+use super::study::{WITHOUT_ORDER, order_and_limit};
+use super::{EXPERIMENTS, OWN, differences, measured};
+use crate::cases::found::found;
+use crate::cases::{CaseError, Golden};
+use psmrt::table::Table;
 
 /// What the digitising is worth: of the largest velocity, and in diameters.
 const VELOCITY_ERROR: f64 = 0.02;

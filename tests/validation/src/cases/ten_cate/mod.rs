@@ -1,9 +1,12 @@
 //! A sphere that settles in a tank, against measured curves.
 
+pub(super) mod figures;
+pub(super) mod study;
+
 use psmrt_report::Figure;
 
-use super::{Bench, Case, CaseError, Claim, Golden, ten_cate_figures, ten_cate_study as study};
-use crate::table::Table;
+use super::{Bench, Case, CaseError, Claim, Golden};
+use psmrt::table::Table;
 
 /// Ten Cate's settling sphere.
 pub const CASE: Case = Case {
@@ -132,5 +135,5 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
-    ten_cate_figures::all(golden, rows)
+    figures::all(golden, rows)
 }

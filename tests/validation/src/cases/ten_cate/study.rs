@@ -2,10 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use super::sphere_drag_study::without_grid;
-use super::ten_cate::EXPERIMENTS;
-use super::{CaseError, Claim};
-use crate::table::Table;
+use super::EXPERIMENTS;
+use crate::cases::sphere_drag::study::without_grid;
+use crate::cases::{CaseError, Claim};
+use psmrt::table::Table;
 
 /// Why velocities may differ by so much on the way down.
 pub const VELOCITY: &str =

@@ -4,14 +4,14 @@ use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
 
 use super::{Bench, Case, CaseError, Claim, Golden};
-use crate::table::Table;
 use crate::tradeoff::effects::effects;
-use crate::tradeoff::evidence::{SolidKnob, grain_points, wall_points};
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
-use crate::tradeoff::knobs::{Flow, Storage};
-use crate::tradeoff::model::Models;
-use crate::tradeoff::record::Row;
-use crate::tradeoff::trial::{Trial, score, trials};
+use psmrt::table::Table;
+use psmrt::tradeoff::evidence::{SolidKnob, grain_points, wall_points};
+use psmrt::tradeoff::knobs::{Flow, Storage};
+use psmrt::tradeoff::model::Models;
+use psmrt::tradeoff::row::Row;
+use psmrt::tradeoff::trial::{Trial, score, trials};
 
 /// The trade-off study.
 pub const CASE: Case = Case {

@@ -1,0 +1,8 @@
+//! The commands of `cargo validate`, one a file.
+
+mod environment;
+pub mod golden;
+pub mod report;
+mod report_files;
+pub mod stability;
+pub mod tradeoff;

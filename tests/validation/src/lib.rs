@@ -1,0 +1,20 @@
+//! The acceptance suite's own program: cases that are measured, judged and drawn; sweeps; reviewed results.
+//! It uses psmrt as anybody may; psmrt knows nothing of it.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`cases`] | the acceptance cases, a folder each, named as under `golden/` |
+//! | [`tradeoff`] | speed for accuracy, measured |
+//! | [`command`] | the commands of `cargo validate` |
+//! | [`failure`] | how these fail |
+
+#![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![warn(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads
+
+pub mod cases;
+pub mod command;
+pub mod failure;
+pub mod tradeoff;
+
+/// How cargo runs this program, by an alias.
+pub const PROGRAM: &str = "cargo validate";

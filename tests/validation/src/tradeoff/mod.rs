@@ -1,0 +1,29 @@
+//! Speed for accuracy, measured: what each knob of a scene does to the error and to the cost, on flows
+//! with known answers. The error models that rest on it are the product's, `psmrt::tradeoff`.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `sweep.rs` | which settings of the knobs are run |
+//! | `setting.rs`, `measure.rs` | knobs become a scene; a run becomes a row |
+//! | `storage.rs` | the oracle with populations kept in fewer digits |
+//! | `record.rs` | rows in a file that grows and can be gone on with |
+//! | `front.rs` | runs that no other beats in cost and error |
+//! | `cost.rs`, `effects.rs` | what a cell update costs; what one knob alone does |
+//! | `figures.rs`, `tables.rs` | what is shown |
+
+pub mod cost;
+pub mod effects;
+pub mod figures;
+pub mod front;
+pub mod measure;
+pub mod record;
+pub mod setting;
+pub mod storage;
+pub mod sweep;
+pub mod tables;
+
+/// Processor and threads, for a column of a table.
+pub fn machine_words() -> String {
+    let processor = psmrt::machine::processor().unwrap_or_else(|| "unknown processor".to_owned());
+    format!("{} x {}", psmrt::machine::threads(), processor.replace(',', " "))
+}

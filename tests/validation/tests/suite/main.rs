@@ -1,0 +1,10 @@
+//! Plain tests of the cases, the sweeps and the commands of `cargo validate`.
+
+#[path = "../../../common/mod.rs"]
+mod common;
+
+mod acceptance;
+mod golden;
+mod report;
+mod stability_warnings;
+mod tradeoff;
