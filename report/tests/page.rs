@@ -34,7 +34,7 @@ fn page() -> Page {
             }],
             scenes: vec![link("golden/duct/scene.toml", "data/duct/scene.toml")],
             data: vec![link("duct.csv", "duct.csv"), link("duct_1.svg", "duct_1.svg")],
-            command: "psmrt report --case duct".to_owned(),
+            command: "cargo validate report --case duct".to_owned(),
             full: "none".to_owned(),
         }],
         environment: vec![("made on".to_owned(), "2026-11-22 (UTC)".to_owned())],

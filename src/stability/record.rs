@@ -93,7 +93,7 @@ fn key(line: &Line, value: f64) -> String {
 /// The head of a new record.
 fn head(flow: &Flow) -> String {
     let mut head =
-        format!("# psmrt stability {}; psmrt {}, ", flow.name, env!("CARGO_PKG_VERSION"));
+        format!("# cargo validate stability {}; psmrt {}, ", flow.name, env!("CARGO_PKG_VERSION"));
     head += "lattice units. Engine reference: double precision, wgpu: single.\n";
     for line in flow.about {
         head += &format!("# {line}\n");

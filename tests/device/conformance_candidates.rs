@@ -64,7 +64,11 @@ fn mistakes() {
     let table = conformance::confusion(&folder, "f64");
     let golden = fs::read_to_string(sources().join("confusion.csv")).unwrap();
     let golden: Vec<&str> = golden.lines().filter(|line| !line.starts_with('#')).collect();
-    assert_eq!(table.lines().collect::<Vec<_>>(), golden, "see examples/confusion.rs");
+    assert_eq!(
+        table.lines().collect::<Vec<_>>(),
+        golden,
+        "see tests/validation/examples/confusion.rs"
+    );
     let mut planted = 0;
     for line in &golden[1..] {
         let fields: Vec<&str> = line.split(',').collect();

@@ -1,4 +1,4 @@
-//! What the tests of the kernel against the oracle share, and `examples/kernel_parity.rs` with them.
+//! What the tests of the kernel against the oracle share, and `tests/validation/examples/kernel_parity.rs` with them.
 
 #![allow(dead_code, reason = "each file that compares the two uses a part of this")]
 

@@ -57,7 +57,13 @@ fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
 
 #[test]
 fn every_file_of_tests_is_among_the_modules_of_its_binary() {
-    for (folder, top) in [("oracle", "all.rs"), ("suite", "main.rs"), ("device", "main.rs")] {
+    for (folder, top) in [
+        ("oracle", "all.rs"),
+        ("suite", "main.rs"),
+        ("device", "main.rs"),
+        ("validation/tests/suite", "main.rs"),
+        ("validation/tests/device", "main.rs"),
+    ] {
         let folder = format!("tests/{folder}");
         let modules = text(&files(&folder, &[top])[0]);
         for path in files(&folder, &[".rs"]) {
@@ -121,6 +127,20 @@ fn reference_knows_nothing_of_scenes_gpus_or_reports_and_the_report_nothing_of_s
                 assert!(!text.contains(word), "{} mentions {word}", path.display());
             }
         }
+    }
+}
+
+#[test]
+fn nothing_points_back_to_the_validation() {
+    for folder in ["src", "reference", "report"] {
+        for path in files(folder, &[".rs"]) {
+            // Its name with an underscore is what a use of it would be called.
+            assert!(!text(&path).contains("psmrt_validation"), "{} uses it", path.display());
+        }
+    }
+    for manifest in ["reference/Cargo.toml", "report/Cargo.toml", "Cargo.toml"] {
+        let all = text(&Path::new(env!("CARGO_MANIFEST_DIR")).join(manifest));
+        assert!(!all.contains("psmrt-validation"), "{manifest} depends on it");
     }
 }
 

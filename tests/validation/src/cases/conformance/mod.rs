@@ -13,13 +13,13 @@ pub const CASE: Case = Case {
         "An independent implementation in NumPy, written from the paper, answers the conformance kit with one \
          mistake planted at a time: every misprint of the paper, and what people really get wrong. The judge \
          sees nothing but the numbers and says which single mistake makes them. The table is the confusion \
-         table in double precision (cargo run --example confusion f64); `cargo test` makes it anew.",
+         table in double precision (cargo run -p psmrt-validation --example confusion f64); `cargo test` makes it anew.",
     ],
     scenes: &[],
     literature: &[],
     rows: "confusion.csv",
     units: "numbers of answers and of mistakes",
-    full: "cargo run --release --example confusion made these rows; minutes",
+    full: "cargo run --release -p psmrt-validation --example confusion made these rows; minutes",
     measure,
     judge,
     draw,

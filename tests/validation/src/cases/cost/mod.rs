@@ -1,4 +1,4 @@
-//! What each model costs where a scene has it, from the committed table: `cargo run --example model_cost`.
+//! What each model costs where a scene has it, from the committed table: `cargo run -p psmrt-validation --example model_cost`.
 
 use psmrt_report::{Axis, Figure, Series, Style};
 
@@ -20,7 +20,7 @@ pub const CASE: Case = Case {
     literature: &[],
     rows: "cost.csv",
     units: "time_ratio without units; ns_per_cell_update in nanoseconds; bytes_per_cell in bytes",
-    full: "cargo run --release --example model_cost made these rows; minutes",
+    full: "cargo run --release -p psmrt-validation --example model_cost made these rows; minutes",
     measure: |bench| bench.literature(CASE.name, CASE.rows),
     judge,
     draw,

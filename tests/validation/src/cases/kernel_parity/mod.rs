@@ -21,7 +21,7 @@ pub const CASE: Case = Case {
     literature: &[],
     rows: "parity.csv",
     units: "error and allowed in what the column quantity names",
-    full: "cargo run --example kernel_parity made these rows; minutes",
+    full: "cargo run -p psmrt-validation --example kernel_parity made these rows; minutes",
     measure,
     judge,
     draw,

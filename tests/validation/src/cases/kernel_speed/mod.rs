@@ -23,7 +23,7 @@ pub const CASE: Case = Case {
     literature: &[],
     rows: "speed.csv",
     units: "cells along an edge; kernel and oracle in million cell updates a second; cost and ratio without units",
-    full: "cargo run --example kernel_speed made these rows; minutes",
+    full: "cargo run -p psmrt-validation --example kernel_speed made these rows; minutes",
     measure,
     judge,
     draw,

@@ -30,7 +30,7 @@ pub const CASE: Case = Case {
     literature: &["bounceback_wall.csv"],
     rows: "expected.csv",
     units: "wall_outwards in cells; relative_l2 and slip_l2 relative; u1 to u8 over the largest exact velocity",
-    full: "cargo run --release -- report --full --case poiseuille goes on to 128 cells; minutes",
+    full: "cargo validate report --full --case poiseuille goes on to 128 cells; minutes",
     measure,
     judge,
     draw,

@@ -54,7 +54,7 @@ pub const CASE: Case = Case {
     rows: "expected.csv",
     units: "permeability_d2 in squares of the diameter; largest_overlap in diameters; lattice_velocity and max_speed \
             in cells per step; the rest without units",
-    full: "cargo run --release --example seepage_study made study.csv and stability.csv (hours; it can be cut off); the paper's own size: psmrt run golden/seepage/paper.toml --engine wgpu",
+    full: "cargo run --release -p psmrt-validation --example seepage_study made study.csv and stability.csv (hours; it can be cut off); the paper's own size: psmrt run golden/seepage/paper.toml --engine wgpu",
     measure,
     judge,
     draw,

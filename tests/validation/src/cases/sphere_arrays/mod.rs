@@ -32,7 +32,7 @@ pub const CASE: Case = Case {
     literature: &["literature.csv"],
     rows: "expected.csv",
     units: "K and K_exact over Stokes' drag; error relative; cells_per_diameter in cells",
-    full: "cargo run --release -- report --full --case sphere_arrays goes on to 28 cells per diameter (an hour); cargo run --release -p psmrt-reference --example array_study made study.csv (hours)",
+    full: "cargo validate report --full --case sphere_arrays goes on to 28 cells per diameter (an hour); cargo run --release -p psmrt-reference --example array_study made study.csv (hours)",
     measure,
     judge,
     draw,

@@ -44,7 +44,7 @@ pub const CASE: Case = Case {
     literature: &["literature.csv", "duct.csv"],
     rows: "expected.csv",
     units: "width_d in diameters; lattice_velocity and max_speed in cells per step; the rest without units",
-    full: "cargo run --release -- report --full --case sphere_drag goes on to 12 cells per diameter (a quarter of an hour); cargo run --release --example sphere_drag_study made study.csv (hours; it can be cut off); the paper's own grid: psmrt run golden/sphere_drag/scene.toml --set domain.dx=1e-5",
+    full: "cargo validate report --full --case sphere_drag goes on to 12 cells per diameter (a quarter of an hour); cargo run --release -p psmrt-validation --example sphere_drag_study made study.csv (hours; it can be cut off); the paper's own grid: psmrt run golden/sphere_drag/scene.toml --set domain.dx=1e-5",
     measure,
     judge,
     draw,

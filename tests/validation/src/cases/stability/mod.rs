@@ -35,7 +35,7 @@ pub const CASE: Case = Case {
     literature: &[],
     rows: "bed_force.csv",
     units: "lattice units, so velocities in cells per step",
-    full: "cargo run --release -- stability --out golden/stability made these rows; an hour or two, and it can be cut off",
+    full: "cargo validate stability --out golden/stability made these rows; an hour or two, and it can be cut off",
     measure,
     judge,
     draw,

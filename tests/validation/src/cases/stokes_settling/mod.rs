@@ -22,7 +22,7 @@ pub const CASE: Case = Case {
     literature: &["literature.csv"],
     rows: "expected.csv",
     units: "time_s in seconds; velocity_over_exact without units",
-    full: "cargo run --release -- report --full --case stokes_settling takes 12 cells per diameter; an hour",
+    full: "cargo validate report --full --case stokes_settling takes 12 cells per diameter; an hour",
     measure,
     judge,
     draw,

@@ -25,7 +25,7 @@ pub const CASE: Case = Case {
     literature: &["far_field.csv"],
     rows: "expected.csv",
     units: "velocity and far fields over Stokes' velocity of one sphere alone",
-    full: "cargo run --release --example suspension_study made study.csv; hours, and it can be cut off",
+    full: "cargo run --release -p psmrt-validation --example suspension_study made study.csv; hours, and it can be cut off",
     measure,
     judge,
     draw,

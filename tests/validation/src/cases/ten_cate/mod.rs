@@ -29,7 +29,7 @@ pub const CASE: Case = Case {
     literature: &["literature.csv", "curves.csv"],
     rows: "expected.csv",
     units: "time_s in seconds; gap_over_d in diameters; velocity_m_s in m/s, upwards",
-    full: "cargo run --release -- report --full --case ten_cate takes the 8 cells of scene.toml; cargo run --release --example ten_cate_study made study.csv and falls.csv (hours; it can be cut off)",
+    full: "cargo validate report --full --case ten_cate takes the 8 cells of scene.toml; cargo run --release -p psmrt-validation --example ten_cate_study made study.csv and falls.csv (hours; it can be cut off)",
     measure,
     judge,
     draw,

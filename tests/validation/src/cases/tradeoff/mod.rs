@@ -43,7 +43,7 @@ pub const CASE: Case = Case {
     literature: &["literature.csv"],
     rows: "held_back_check.csv",
     units: "errors relative; lattice_velocity in cells per step; sizes in cells",
-    full: "cargo run --release -- tradeoff made these rows; hours, and it can be cut off",
+    full: "cargo validate tradeoff made these rows; hours, and it can be cut off",
     measure,
     judge,
     draw,
