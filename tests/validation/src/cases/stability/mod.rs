@@ -1,5 +1,5 @@
 //! Stability at the extremes: how far each collision is stable and accurate, from the maps of
-//! `psmrt stability`.
+//! `cargo validate stability`.
 
 pub(super) mod figures;
 

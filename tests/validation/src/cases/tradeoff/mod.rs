@@ -49,7 +49,7 @@ pub const CASE: Case = Case {
     draw,
 };
 
-/// The sweep takes an hour (`psmrt tradeoff --out golden/tradeoff`); its committed rows are judged.
+/// The sweep takes an hour (`cargo validate tradeoff --out golden/tradeoff`); its committed rows are judged.
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     bench.literature(CASE.name, CASE.rows)
 }
