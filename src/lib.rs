@@ -17,7 +17,7 @@
 //! | [`tradeoff`] | error models, and the runs that they rest on |
 //! | [`plan`] | the cheapest way to compute a scene to a given error |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
-//! | [`stability`] | where the method is stable and where it is accurate |
+//! | [`stability`] | how fast a flow may be and how light a grain, from the maps of stability |
 //! | [`table`] | rows of named columns, as CSV files hold them |
 //! | [`units`] | SI units and lattice units |
 //! | [`input`] | reading of files that the user names |

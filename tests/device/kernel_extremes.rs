@@ -2,13 +2,7 @@
 
 use crate::common::Budget;
 use crate::edges;
-use crate::trials::{self, Claim};
-use psmrt::engine::EngineName;
-use psmrt::stability::Lab;
-
-fn lab() -> Lab {
-    Lab { gpu: Some(trials::gpu().unwrap()) }
-}
+use crate::trials::Claim;
 
 fn a_box_of_one_cell_gains_what_the_force_gives() {
     Budget::kernel(100).spend(edges::STEPS);
@@ -33,25 +27,6 @@ fn what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady() {
     edges::at_rest("wgpu");
 }
 
-fn a_solid_phase_without_solids_is_none() {
-    edges::no_grains(EngineName::Wgpu, &lab(), &mut Budget::kernel(3_000));
-}
-
-fn units_from_nanometres_to_metres_give_the_same_lattice_numbers() {
-    edges::any_units(EngineName::Wgpu, &lab(), &mut Budget::kernel(300_000));
-}
-
-fn runs_inside_the_frontiers_survive_and_those_outside_are_stopped() {
-    let mut budget = Budget::kernel(17_500_000);
-    for near in edges::near_frontiers() {
-        edges::assert_near(&near, EngineName::Wgpu, &lab(), &mut budget);
-    }
-}
-
-fn eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused() {
-    edges::in_one_cell_and_too_hard(EngineName::Wgpu, &lab(), &mut Budget::kernel(2_000_000));
-}
-
 fn scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite() {
     Budget::kernel(1_300_000).spend(200 * (4096 + 1728));
     edges::broken_scenes("wgpu");
@@ -68,19 +43,6 @@ pub const CLAIMS: &[Claim] = &[
     (
         "what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady",
         what_is_at_rest_stays_at_rest_and_is_not_taken_for_steady,
-    ),
-    ("a_solid_phase_without_solids_is_none", a_solid_phase_without_solids_is_none),
-    (
-        "units_from_nanometres_to_metres_give_the_same_lattice_numbers",
-        units_from_nanometres_to_metres_give_the_same_lattice_numbers,
-    ),
-    (
-        "runs_inside_the_frontiers_survive_and_those_outside_are_stopped",
-        runs_inside_the_frontiers_survive_and_those_outside_are_stopped,
-    ),
-    (
-        "eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused",
-        eight_grains_in_a_cell_and_the_briefest_contacts_live_and_too_few_sub_steps_are_refused,
     ),
     (
         "scenes_that_break_are_stopped_and_leave_nothing_that_is_not_finite",

@@ -1,7 +1,7 @@
 //! How a command of `cargo validate` fails.
 
+use crate::stability::LabError;
 use psmrt::command::CommandError;
-use psmrt::stability::LabError;
 use psmrt::table::TableError;
 use thiserror::Error;
 

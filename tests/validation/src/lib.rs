@@ -4,6 +4,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`cases`] | the acceptance cases, a folder each, named as under `golden/` |
+//! | [`stability`] | maps of where the method survives and where it is right |
 //! | [`tradeoff`] | speed for accuracy, measured |
 //! | [`command`] | the commands of `cargo validate` |
 //! | [`failure`] | how these fail |
@@ -14,6 +15,7 @@
 pub mod cases;
 pub mod command;
 pub mod failure;
+pub mod stability;
 pub mod tradeoff;
 
 /// How cargo runs this program, by an alias.

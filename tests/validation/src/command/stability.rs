@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::failure::Failure;
+use crate::stability::record::Record;
+use crate::stability::{FLOWS, Flow, Lab, map};
 use psmrt::command::say::say;
 use psmrt::engine::EngineName;
 use psmrt::kernel::Gpu;
-use psmrt::stability::record::Record;
-use psmrt::stability::{FLOWS, Flow, Lab, map};
 
 /// What `cargo validate stability` is asked for.
 #[derive(Args, Clone, Debug)]

@@ -15,8 +15,8 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Search};
-use crate::engine::Engine;
-use crate::engine::EngineName;
+use psmrt::engine::Engine;
+use psmrt::engine::EngineName;
 
 /// Edge of the cubic cell of the array.
 const SIDE: usize = 16;

@@ -11,10 +11,10 @@ use psmrt_reference::setup::Setup;
 
 use super::start::populations;
 use super::{LabError, Line};
-use crate::engine::EngineName;
-use crate::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
-use crate::kernel::Gpu;
-use crate::scene::FreePart;
+use psmrt::engine::EngineName;
+use psmrt::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
+use psmrt::kernel::Gpu;
+use psmrt::scene::FreePart;
 
 /// Where runs are made.
 pub struct Lab {

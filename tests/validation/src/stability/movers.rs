@@ -25,9 +25,9 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Search};
-use crate::engine::Engine;
-use crate::engine::EngineName;
-use crate::scene::FreePart;
+use psmrt::engine::Engine;
+use psmrt::engine::EngineName;
+use psmrt::scene::FreePart;
 
 const SIDE: usize = 12;
 const RADIUS: f64 = 3.0;

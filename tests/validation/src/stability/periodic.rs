@@ -19,8 +19,8 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use super::lab::{Lab, go_on};
 use super::spectral::vorticity;
 use super::{Flow, Found, LabError, Line, Search};
-use crate::engine::Engine;
-use crate::engine::EngineName;
+use psmrt::engine::Engine;
+use psmrt::engine::EngineName;
 
 /// Largest velocities at the start, cells per step.
 const SPEEDS: &[f64] = &[0.003, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.5];
@@ -47,7 +47,7 @@ pub(super) const SHEAR_LAYER: Flow = Flow {
         "least 300 and at most 1600 steps. Right: kinetic energy within 5 % of its budget E(0) - nu int <w^2> dt, no",
         "vorticity above 1.2 times the largest at the start. error: the worst distance of the energy from its budget",
         "over E(0), or the excess of vorticity over 4 where that is larger. It starts with the stress of its velocity",
-        "field (src/stability/start.rs).",
+        "field (tests/validation/src/stability/start.rs).",
     ],
     knob: "velocity",
     values: SPEEDS,
@@ -72,7 +72,7 @@ pub(super) const TAYLOR_GREEN: Flow = Flow {
         "The three-dimensional Taylor-Green vortex in a periodic box of 16^3 cells, largest velocity U, for the time",
         "3 L/U, at least 300 and at most 800 steps. It has no closed solution. Right: kinetic energy within 5 % of its",
         "budget E(0) - nu int <w^2> dt. error: the worst distance of the energy from its budget over E(0).",
-        "It starts with the stress of its velocity field (src/stability/start.rs): from equilibrium, near tau = 1/2, the",
+        "It starts with the stress of its velocity field (tests/validation/src/stability/start.rs): from equilibrium, near tau = 1/2, the",
         "velocity would swing by |k|^2/6 = 8 % from step to step.",
     ],
     knob: "velocity",
@@ -100,7 +100,7 @@ pub(super) const ABC: Flow = Flow {
         "periodic box of 16^3 cells, for the time 3 L/U, at least 300 and at most 800 steps. Right: within 10 % (root",
         "mean square over that of the exact velocity) of its exact solution u(0) exp(-nu k^2 t) when it has decayed to",
         "1/e or at t = 3/(U k), whichever comes first: later the flow is itself unstable. error: that distance. It starts",
-        "with the stress of its velocity field (src/stability/start.rs).",
+        "with the stress of its velocity field (tests/validation/src/stability/start.rs).",
     ],
     knob: "velocity",
     values: SPEEDS,

@@ -6,7 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::{Flow, Found, LabError, Line, Outcome};
-use crate::table::Table;
+use psmrt::table::Table;
 
 /// The columns; the knob's name stands in a comment.
 const COLUMNS: [&str; 11] = [

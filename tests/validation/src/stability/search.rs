@@ -2,7 +2,7 @@
 
 use super::record::Record;
 use super::{Flow, Found, Lab, LabError, Outcome, Search};
-use crate::engine::EngineName;
+use psmrt::engine::EngineName;
 
 /// Maps a flow on an engine: makes the runs that its record lacks. `tell` is told of each.
 pub fn map(

@@ -16,8 +16,8 @@ use psmrt_reference::solids::Solid;
 use super::lab::{Lab, go_on};
 use super::movers::with_grains;
 use super::{Flow, Found, LabError, Line, Search};
-use crate::engine::EngineName;
-use crate::scene::FreePart;
+use psmrt::engine::EngineName;
+use psmrt::scene::FreePart;
 
 const RADIUS: f64 = 3.0;
 const DENSITY: f64 = 2.65;
@@ -206,7 +206,7 @@ fn crowd(lab: &Lab, line: &Line, count: f64) -> Result<Found, LabError> {
     // Σ_cells (1 - B) G = Σ F + d(Σ j)/dt, over one step
     let all: Vec<usize> = (0..SIDE * SIDE * SIDE).collect();
     let weighting = line.weighting.unwrap_or_default();
-    let total = |cells: &[crate::engine::CellState]| -> f64 {
+    let total = |cells: &[psmrt::engine::CellState]| -> f64 {
         cells.iter().map(|cell| cell.density * cell.velocity.x).sum()
     };
     let before = engine.cells(&all);

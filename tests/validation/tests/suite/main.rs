@@ -2,8 +2,11 @@
 
 #[path = "../../../common/mod.rs"]
 mod common;
+#[path = "../edges/mod.rs"]
+mod edges;
 
 mod acceptance;
+mod extremes;
 mod golden;
 mod report;
 mod stability_warnings;
