@@ -8,6 +8,7 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::partial_saturation::SolidOperator;
 use psmrt_reference::setup::Setup;
 
+use super::bindings::Binding;
 use super::layout::{Layout, Store};
 use super::numbers::{count, literal};
 use super::outgoing;
@@ -107,7 +108,7 @@ impl Recipe<'_> {
         let mut add = |file: &str| text += &selected(file, &flags);
         if steps || work == Work::Summary {
             if solids == SolidData::Moving {
-                add(&table::reader(self.layout.store, 42, "records"));
+                add(&table::reader(self.layout.store, Binding::Records, "records"));
             }
             if solids != SolidData::None {
                 add(include_str!("wgsl/solid_part.wgsl"));
@@ -122,7 +123,7 @@ impl Recipe<'_> {
             add(include_str!("wgsl/sums.wgsl"));
         }
         if with_loads {
-            add(&table::writer(self.layout.store, 44, "moments"));
+            add(&table::writer(self.layout.store, Binding::Moments, "moments"));
             add(include_str!("wgsl/moments_kept.wgsl"));
         }
         if listed {
@@ -145,7 +146,7 @@ impl Recipe<'_> {
         // A workgroup waits for its slowest part, which a software adapter does at some cost: there it has
         // but one part, eight invocations.
         let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
-        let tables = [(0, "shares"), (4, "moments")]
+        let tables = [(Binding::Shares, "shares"), (Binding::Moments, "moments")]
             .map(|(binding, name)| table::reader(self.layout.store, binding, name));
         let head = format!("const LANES = {lanes}u;\nconst SOLIDS = {}u;\n", self.solid_count());
         let files = [include_str!("wgsl/solid.wgsl"), include_str!("wgsl/gather.wgsl")];

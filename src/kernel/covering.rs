@@ -3,6 +3,7 @@
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::partial_saturation::Weighting;
 
+use super::bindings::Binding;
 use super::compose::{Recipe, selected};
 use super::numbers::{count, literal};
 use super::table;
@@ -60,14 +61,14 @@ impl Recipe<'_> {
         text += include_str!("wgsl/solid.wgsl");
         match work.stage {
             Stage::Touch => {
-                text += &table::writer(store, 12, "shares");
+                text += &table::writer(store, Binding::Shares, "shares");
                 text += include_str!("wgsl/coordinates.wgsl");
                 text += include_str!("wgsl/fraction.wgsl");
                 text += &selected(include_str!("wgsl/cover.wgsl"), &flags);
             }
             Stage::Resolve => {
-                text += &table::reader(store, 12, "shares");
-                text += &table::writer(store, 13, "records");
+                text += &table::reader(store, Binding::Shares, "shares");
+                text += &table::writer(store, Binding::Records, "records");
                 text += &selected(include_str!("wgsl/resolve.wgsl"), &flags);
             }
             Stage::Drive => text += include_str!("wgsl/drive.wgsl"),

@@ -1,5 +1,6 @@
 //! Solid fractions as the device finds them, one by one, so that they can be checked.
 
+use super::bindings::Binding;
 use super::buffers::Growing;
 use super::device::Gpu;
 use super::error::KernelError;
@@ -15,7 +16,7 @@ pub fn solid_fractions_on_device(
     let mut shader = format!("const COUNT = {}u;\nconst SAMPLES = 1u;\n", count(balls.len()));
     shader += include_str!("wgsl/fraction.wgsl");
     shader += include_str!("wgsl/fractions.wgsl");
-    let pipeline = Pipeline::of(gpu, &shader, "fractions")?;
+    let pipeline = Pipeline::of(gpu, &shader, "fractions", vec![Binding::Balls, Binding::Seen])?;
     let rows: Vec<[f32; 4]> = balls
         .iter()
         .map(|([x, y, z], radius)| {
@@ -26,7 +27,10 @@ pub fn solid_fractions_on_device(
         [Growing::new(gpu, "balls to check")?, Growing::new(gpu, "fractions to check")?];
     given.fill(gpu, &rows)?;
     found.reserve(gpu, 4 * rows.len() as u64)?;
-    let group = pipeline.bind(gpu, vec![(0, given.resource()), (1, found.resource())])?;
+    let group = pipeline.bind(gpu, |at| match at {
+        Binding::Balls => vec![given.resource()],
+        _ => vec![found.resource()],
+    })?;
     gpu.checked(|| {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut pass = encoder.begin_compute_pass(&Default::default());

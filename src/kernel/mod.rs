@@ -5,6 +5,7 @@
 //! | `device.rs`, `quiet.rs` | adapters, and the device opened on one |
 //! | `layout.rs`, `field.rs`, `table.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
+//! | `bindings.rs` | the number of every binding |
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `solids.rs`, `touches.rs` | the solids on the device |
@@ -21,6 +22,7 @@
 //! solids, which models are on). Weights, equilibria, collision, faces and coverage are its own, so
 //! that each checks the other. `tests/suite/tidy.rs` holds this.
 
+mod bindings;
 mod buffers;
 mod compose;
 mod coverage;

@@ -11,6 +11,7 @@ use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::{Shape, Solid};
 use wgpu::{BindingResource, BufferUsages};
 
+use super::bindings::Binding;
 use super::buffers::Growing;
 use super::compose::Recipe;
 use super::covering::{Covering, Stage};
@@ -60,8 +61,6 @@ pub(super) struct Movable {
     pub(super) meetings: DeviceList,
     pipelines: [Pipeline; 5],
     parts: u32,
-    /// Whether the cells that one solid touches are listed.
-    lists_all: bool,
     room: Vec<Room>,
 }
 
@@ -72,9 +71,13 @@ impl Movable {
         gpu: &Gpu,
         recipe: &Recipe<'_>,
         phase: &SolidPhase,
-        touches: &mut Touches,
+        touches: &mut super::touches::Touches,
         in_every_cell: bool,
     ) -> Result<Self, KernelError> {
+        use Binding::{
+            Alone, Counts, Excess, Found, Given, Groups, Links, Meetings, Records, Rows, Shares,
+            Slots, Solids, Touches, Weights,
+        };
         let (needed, available) = (BINDINGS, gpu.facts().max_bindings);
         if available < needed {
             let adapter = gpu.facts().name.clone();
@@ -85,12 +88,22 @@ impl Movable {
         let parts = most.div_ceil(SHARE).clamp(1, MOST_PARTS);
         let stage = |stage| recipe.covering(Covering { stage, in_every_cell, parts });
         let (touch, resolve) = (stage(Stage::Touch), stage(Stage::Resolve));
+        let mut of_cells = vec![Touches, Links, Weights, Excess, Found, Meetings, Records];
+        of_cells.extend([Solids, Counts, Slots, Shares]);
+        if !in_every_cell {
+            of_cells.push(Alone);
+        }
         let pipelines = [
-            Pipeline::of(gpu, &resolve, "uncover")?,
-            Pipeline::of(gpu, &touch, "measure")?,
-            Pipeline::of(gpu, &touch, "touch")?,
-            Pipeline::of(gpu, &resolve, "resolve")?,
-            Pipeline::of(gpu, &stage(Stage::Drive), "drive")?,
+            Pipeline::of(gpu, &resolve, "uncover", vec![Solids, Counts, Slots, Shares])?,
+            Pipeline::of(gpu, &touch, "measure", vec![Solids, Rows, Counts])?,
+            Pipeline::of(
+                gpu,
+                &touch,
+                "touch",
+                vec![Solids, Given, Rows, Counts, Slots, Touches, Links, Shares],
+            )?,
+            Pipeline::of(gpu, &resolve, "resolve", of_cells)?,
+            Pipeline::of(gpu, &stage(Stage::Drive), "drive", vec![Found, Groups])?,
         ];
         let words = |label, words: u64| {
             let mut buffer = Growing::new(gpu, label)?;
@@ -123,7 +136,6 @@ impl Movable {
             meetings: list("cells in which solids meet", shared, 32)?,
             pipelines,
             parts,
-            lists_all: !in_every_cell,
             room,
         };
         let rows = usize::try_from(all).unwrap_or(usize::MAX);
@@ -152,28 +164,18 @@ impl Movable {
         }
         let of_each = [solids.min(65_535), self.parts, solids.div_ceil(65_535)];
         let groups = solids.div_ceil(64);
-        let bindings = [
-            (of_each, vec![0, 3, 4, 12]),
-            ([groups, 1, 1], vec![0, 2, 3]),
-            (of_each, vec![0, 1, 2, 3, 4, 5, 6, 12]),
-            (of_each, self.resolve_bindings()),
-            ([1, 1, 1], vec![20, 21]),
-        ];
-        let mut bound = Vec::new();
-        for (pipeline, (_, numbers)) in self.pipelines.iter().zip(&bindings) {
-            let resources = numbers.iter().map(|&number| self.resource(number, touches)).collect();
-            bound.push(pipeline.bind(gpu, resources)?);
-        }
+        let sizes = [of_each, [groups, 1, 1], of_each, of_each, [1, 1, 1]];
+        let resources = |at| self.resource(at, touches).into_iter().collect();
+        let bind = |pipeline: &Pipeline| pipeline.bind(gpu, resources);
+        let bound = self.pipelines.iter().map(bind).collect::<Result<Vec<_>, _>>()?;
         gpu.checked(|| {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             encoder.clear_buffer(self.found.buffer(), 0, None);
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            for ((pipeline, group), ([x, y, z], _)) in
-                self.pipelines.iter().zip(&bound).zip(&bindings)
-            {
+            for ((pipeline, group), [x, y, z]) in self.pipelines.iter().zip(&bound).zip(sizes) {
                 pass.set_pipeline(pipeline.raw());
                 pass.set_bind_group(0, group, &[]);
-                pass.dispatch_workgroups(*x, *y, *z);
+                pass.dispatch_workgroups(x, y, z);
             }
             drop(pass);
             for list in [&self.alone, &self.meetings] {
@@ -183,34 +185,25 @@ impl Movable {
         })
     }
 
-    fn resolve_bindings(&self) -> Vec<u32> {
-        let mut numbers = vec![0, 3, 4, 5, 6, 7, 8, 9, 11, 12, 13];
-        if self.lists_all {
-            numbers.push(10);
-        }
-        numbers
-    }
-
-    /// The resource of a binding of `cover.wgsl` and `resolve.wgsl`; from 20 on, of `drive.wgsl`.
-    fn resource<'a>(&'a self, number: u32, touches: &'a Touches) -> (u32, BindingResource<'a>) {
-        let resource = match number {
-            0 => touches.solids.resource(),
-            1 => self.given.resource(),
-            2 => self.rows.resource(),
-            3 => touches.counts.resource(),
-            4 => self.slots.resource(),
-            5 => self.fractions.resource(),
-            6 => touches.links.resource(),
-            7 => touches.weights.resource(),
-            8 => self.excess.resource(),
-            9 | 20 => self.found.resource(),
-            10 => self.alone.cells.resource(),
-            11 => self.meetings.cells.resource(),
-            12 => touches.shares.resource(),
-            13 => self.records.resource(),
-            _ => self.drive.as_entire_binding(),
-        };
-        (number % 20, resource)
+    /// What a shader is bound to there; nothing if it is no table of the solids.
+    pub(super) fn resource<'a>(
+        &'a self,
+        at: Binding,
+        touches: &'a Touches,
+    ) -> Option<BindingResource<'a>> {
+        Some(match at {
+            Binding::Given => self.given.resource(),
+            Binding::Rows => self.rows.resource(),
+            Binding::Slots => self.slots.resource(),
+            Binding::Touches => self.fractions.resource(),
+            Binding::Excess => self.excess.resource(),
+            Binding::Found => self.found.resource(),
+            Binding::Alone => self.alone.cells.resource(),
+            Binding::Meetings => self.meetings.cells.resource(),
+            Binding::Records => self.records.resource(),
+            Binding::Groups => self.drive.as_entire_binding(),
+            _ => touches.resource(at)?,
+        })
     }
 }
 

@@ -138,12 +138,13 @@ pub(super) fn text(domain: &Domain, writes: bool) -> String {
         return String::new();
     }
     let mut text =
-        "@group(0) @binding(52) var<storage, read> outgoing: array<vec2<f32>>;\n".to_owned();
+        "@group(0) @binding(BIND_Outgoing) var<storage, read> outgoing: array<vec2<f32>>;\n"
+            .to_owned();
     for face in &faces {
         text += &of_face(face);
     }
     if writes {
-        text += "@group(0) @binding(53) var<storage, read_write> new_outgoing: array<vec2<f32>>;\n";
+        text += "@group(0) @binding(BIND_NewOutgoing) var<storage, read_write> new_outgoing: array<vec2<f32>>;\n";
         text += "fn keep_outgoing(at: vec3<u32>) {\n";
         for &OpenFace { axis, is_high, .. } in &faces {
             let (x, n) = (["x", "y", "z"][axis], ["NX", "NY", "NZ"][axis]);

@@ -7,6 +7,7 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::SolidPhase;
 use wgpu::TextureFormat;
 
+use super::bindings::Binding;
 use super::buffers::Growing;
 use super::compose::{Recipe, SolidData};
 use super::coverage::Coverage;
@@ -20,16 +21,6 @@ use super::touches::{Room, Touches};
 /// Above this share of covered cells the solid part is worked out in every cell; below it, only in the
 /// listed ones, a second time.
 const DENSE: f64 = 0.03;
-
-/// A table that a step may need.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SolidTable {
-    CellWeights,
-    Slots,
-    Records,
-    Excess,
-    Moments,
-}
 
 /// What the device holds of the solids.
 #[derive(Debug)]
@@ -139,16 +130,14 @@ impl Solids {
         }
     }
 
-    /// The number of the binding of a table, and the table.
-    pub(super) fn resource(&self, table: SolidTable) -> Option<(u32, wgpu::BindingResource<'_>)> {
-        Some(match (table, &self.kept) {
-            (SolidTable::CellWeights, Kept::Fixed(fields)) => (40, fields[0].resource()),
-            (SolidTable::Slots, Kept::Fixed(fields)) => (41, fields[1].resource()),
-            (SolidTable::Slots, Kept::Movable(movable)) => (41, movable.slots.resource()),
-            (SolidTable::Records, Kept::Movable(movable)) => (42, movable.records.resource()),
-            (SolidTable::Excess, Kept::Movable(movable)) => (43, movable.excess.resource()),
-            (SolidTable::Moments, _) => (44, self.touches.moments.resource()),
-            _ => return None,
+    /// What a shader is bound to there; nothing if it is no table of the solids.
+    pub(super) fn resource(&self, at: Binding) -> Option<wgpu::BindingResource<'_>> {
+        Some(match (at, &self.kept) {
+            (Binding::CellWeights, Kept::Fixed(fields)) => fields[0].resource(),
+            (Binding::Slots, Kept::Fixed(fields)) => fields[1].resource(),
+            (Binding::Loads, _) => self.loads.resource(),
+            (_, Kept::Fixed(_)) => self.touches.resource(at)?,
+            (_, Kept::Movable(movable)) => movable.resource(at, &self.touches)?,
         })
     }
 

@@ -1,12 +1,13 @@
 //! Steps of the fluid, and the loads on the solids.
 
+use super::bindings::Binding;
 use super::buffers::Growing;
 use super::compose::{ROW, Work};
 use super::error::KernelError;
 use super::field::Field;
 use super::fluid::Kernel;
 use super::movable::DeviceList;
-use super::pipeline::{Pipeline, Slot};
+use super::pipeline::Pipeline;
 use super::solids::Solids;
 
 /// Cell updates of one submission, at most: a tenth of a second of a large device, which the systems
@@ -169,21 +170,21 @@ impl Kernel {
         let since = self.watch.begin();
         let Some(solids) = &self.solids else { return Ok(()) };
         if self.gather.get().is_none() {
-            let gather = Pipeline::of(&self.gpu, &self.recipe().gather(), "gather")?;
+            let bindings = vec![
+                Binding::Shares,
+                Binding::Weights,
+                Binding::Solids,
+                Binding::Counts,
+                Binding::Moments,
+                Binding::Loads,
+                Binding::Links,
+            ];
+            let shader = self.recipe().gather();
+            let gather = Pipeline::of(&self.gpu, &shader, "gather", bindings)?;
             let _ = self.gather.set(gather);
         }
         let Some(gather) = self.gather.get() else { return Ok(()) };
-        let touches = &solids.touches;
-        let resources = [
-            touches.shares.resource(),
-            touches.weights.resource(),
-            touches.solids.resource(),
-            touches.counts.resource(),
-            touches.moments.resource(),
-            solids.loads.resource(),
-            touches.links.resource(),
-        ];
-        let resources = (0..).zip(resources).collect();
+        let resources = |at| solids.resource(at).into_iter().collect();
         let group = gather.bind(&self.gpu, resources)?;
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
@@ -215,32 +216,24 @@ impl Kernel {
         task: Option<&wgpu::Buffer>,
         list: Option<&wgpu::Buffer>,
     ) -> Result<wgpu::BindGroup, KernelError> {
-        let mut bindings: Vec<(u32, wgpu::BindingResource<'_>)> = Vec::new();
         let seen = self.seen.borrow();
-        let fields = |copy: usize| self.copies[copy].iter().map(Field::resource);
-        for slot in pipeline.slots() {
-            match slot {
-                Slot::Old => bindings.extend((0..).zip(fields(from))),
-                Slot::New => bindings.extend((20..).zip(fields(1 - from))),
-                Slot::Task => bindings.extend(task.map(|task| (50, task.as_entire_binding()))),
-                Slot::List => {
-                    let list = list.unwrap_or_else(|| self.list.buffer());
-                    bindings.push((51, list.as_entire_binding()));
+        let fields = |copy: usize| self.copies[copy].iter().map(Field::resource).collect();
+        let outgoing = |copy: usize| self.outgoing.as_ref().map(|kept| kept.resource(copy));
+        pipeline.bind(&self.gpu, |at| {
+            let one = match at {
+                Binding::Old => return fields(from),
+                Binding::New => return fields(1 - from),
+                Binding::Task => task.map(wgpu::Buffer::as_entire_binding),
+                Binding::CellList => {
+                    Some(list.unwrap_or_else(|| self.list.buffer()).as_entire_binding())
                 }
-                Slot::Seen => bindings.push((60, seen.resource())),
-                Slot::Outgoing => {
-                    bindings.extend(self.outgoing.iter().map(|kept| (52, kept.resource(from))));
-                }
-                Slot::NewOutgoing => {
-                    bindings.extend(self.outgoing.iter().map(|kept| (53, kept.resource(1 - from))));
-                }
-                Slot::Solid(table) => {
-                    let Some(solids) = &self.solids else { continue };
-                    bindings.extend(solids.resource(*table));
-                }
-            }
-        }
-        pipeline.bind(&self.gpu, bindings)
+                Binding::Seen => Some(seen.resource()),
+                Binding::Outgoing => outgoing(from),
+                Binding::NewOutgoing => outgoing(1 - from),
+                _ => self.solids.as_ref().and_then(|solids| solids.resource(at)),
+            };
+            one.into_iter().collect()
+        })
     }
 }
 

@@ -16,6 +16,7 @@
 use psmrt_reference::directions::{C, OPPOSITE, Q};
 use psmrt_reference::domain::{Domain, Face};
 
+use super::bindings::Binding;
 use super::layout::{Layout, Store};
 use super::numbers::literal;
 use super::outgoing;
@@ -56,10 +57,11 @@ fn bindings(layout: &Layout, writes: bool) -> String {
     let mut text = String::new();
     for binding in 0..layout.bindings() {
         let (space, what) = kind("read");
-        text += &format!("@group(0) @binding({binding}) var{space} old_{binding}: {what};\n");
+        let number = Binding::Old.number() + binding;
+        text += &format!("@group(0) @binding({number}) var{space} old_{binding}: {what};\n");
         if writes {
             let (space, what) = kind("read_write");
-            let number = 20 + binding;
+            let number = Binding::New.number() + binding;
             text += &format!("@group(0) @binding({number}) var{space} new_{binding}: {what};\n");
         }
     }

@@ -7,6 +7,7 @@
 use bytemuck::Pod;
 use wgpu::{BindingResource, Extent3d, Origin3d, TextureFormat, TextureUsages};
 
+use super::bindings::Binding;
 use super::buffers::Growing;
 use super::device::Gpu;
 use super::error::KernelError;
@@ -158,16 +159,16 @@ const PLACE: &str = "    let x = row % 2048u;\n    let y = row / 2048u % 2048u;\
                      let z = 4u * (row / 4194304u);\n";
 
 /// WGSL: a table of four columns to be read, and the function `NAME_at` that gives a row.
-pub(super) fn reader(store: Store, binding: u32, name: &str) -> String {
+pub(super) fn reader(store: Store, binding: Binding, name: &str) -> String {
     match store {
         Store::Buffers => format!(
-            "@group(0) @binding({binding}) var<storage, read> {name}: array<vec4<u32>>;\n\
+            "@group(0) @binding(BIND_{binding:?}) var<storage, read> {name}: array<vec4<u32>>;\n\
              fn {name}_at(row: u32) -> vec4<u32> {{\n    return {name}[row];\n}}\n"
         ),
         Store::Textures => {
             let at = |column: u32| format!("textureLoad({name}, vec3<u32>(x, y, z + {column}u)).x");
             format!(
-                "@group(0) @binding({binding}) var {name}: texture_storage_3d<r32uint, read>;\n\
+                "@group(0) @binding(BIND_{binding:?}) var {name}: texture_storage_3d<r32uint, read>;\n\
                  fn {name}_at(row: u32) -> vec4<u32> {{\n{PLACE}    \
                  return vec4<u32>({}, {}, {}, {});\n}}\n",
                 at(0),
@@ -180,16 +181,16 @@ pub(super) fn reader(store: Store, binding: u32, name: &str) -> String {
 }
 
 /// WGSL: a table of four columns to be written, and the function `keep_NAME` that does it.
-pub(super) fn writer(store: Store, binding: u32, name: &str) -> String {
+pub(super) fn writer(store: Store, binding: Binding, name: &str) -> String {
     let head = format!("fn keep_{name}(row: u32, values: vec4<u32>) {{\n");
     match store {
         Store::Buffers => format!(
-            "@group(0) @binding({binding}) var<storage, read_write> {name}: array<vec4<u32>>;\n\
+            "@group(0) @binding(BIND_{binding:?}) var<storage, read_write> {name}: array<vec4<u32>>;\n\
              {head}    {name}[row] = values;\n}}\n"
         ),
         Store::Textures => {
             let mut text = format!(
-                "@group(0) @binding({binding}) var {name}: texture_storage_3d<r32uint, write>;\n\
+                "@group(0) @binding(BIND_{binding:?}) var {name}: texture_storage_3d<r32uint, write>;\n\
                  {head}{PLACE}"
             );
             for (number, column) in ["x", "y", "z", "w"].iter().enumerate() {

@@ -3,6 +3,7 @@
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
+use super::bindings::Binding;
 use super::buffers::Growing;
 use super::coverage::Tables;
 use super::device::Gpu;
@@ -117,6 +118,19 @@ impl Touches {
             links: buffer("records of touches")?,
             weights: buffer("weights of touches")?,
             moments: table("moments of covered cells")?,
+        })
+    }
+
+    /// What a shader is bound to there; nothing if it is not among these.
+    pub(super) fn resource(&self, at: Binding) -> Option<wgpu::BindingResource<'_>> {
+        Some(match at {
+            Binding::Solids => self.solids.resource(),
+            Binding::Counts => self.counts.resource(),
+            Binding::Shares => self.shares.resource(),
+            Binding::Links => self.links.resource(),
+            Binding::Weights => self.weights.resource(),
+            Binding::Moments => self.moments.resource(),
+            _ => return None,
         })
     }
 

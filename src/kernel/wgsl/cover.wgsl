@@ -1,19 +1,19 @@
 // What the solids cover: first how many cells in each row of the box about a ball, then each touch.
 
-@group(0) @binding(0) var<storage, read> solids: array<Solid>;
+@group(0) @binding(BIND_Solids) var<storage, read> solids: array<Solid>;
 // Cell and solid fraction (bits) of each touch of solids whose cells are given.
-@group(0) @binding(1) var<storage, read> given: array<vec2<u32>>;
+@group(0) @binding(BIND_Given) var<storage, read> given: array<vec2<u32>>;
 // Of each row along x: the first cell of it that is touched, and the touches before it of that solid.
-@group(0) @binding(2) var<storage, read_write> rows: array<vec2<u32>>;
+@group(0) @binding(BIND_Rows) var<storage, read_write> rows: array<vec2<u32>>;
 // Touches of each solid.
-@group(0) @binding(3) var<storage, read_write> counts: array<u32>;
+@group(0) @binding(BIND_Counts) var<storage, read_write> counts: array<u32>;
 // Of each cell a touch of it, 0 for none.
-@group(0) @binding(4) var<storage, read_write> slots: array<atomic<u32>>;
+@group(0) @binding(BIND_Slots) var<storage, read_write> slots: array<atomic<u32>>;
 // Solid fraction (bits) and solid of each touch.
-@group(0) @binding(5) var<storage, read_write> touches: array<vec2<u32>>;
+@group(0) @binding(BIND_Touches) var<storage, read_write> touches: array<vec2<u32>>;
 // The touch of the same cell that came before, 0 for none. In which order they come is left to chance;
 // resolve.wgsl brings them into that of their numbers.
-@group(0) @binding(6) var<storage, read_write> links: array<u32>;
+@group(0) @binding(BIND_Links) var<storage, read_write> links: array<u32>;
 
 // Low corner of the lowest cell against the centre.
 fn low_corner(solid: Solid) -> vec3<f32> {

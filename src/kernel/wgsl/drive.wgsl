@@ -1,7 +1,7 @@
 // How many workgroups the lists of cells take, and the tasks that say so (task.wgsl).
 
-@group(0) @binding(0) var<storage, read> found: array<u32, 2>;
-@group(0) @binding(1) var<storage, read_write> tasks: array<vec4<u32>, 4>;
+@group(0) @binding(BIND_Found) var<storage, read> found: array<u32, 2>;
+@group(0) @binding(BIND_Groups) var<storage, read_write> tasks: array<vec4<u32>, 4>;
 
 @compute @workgroup_size(2)
 fn drive(@builtin(local_invocation_index) list: u32) {

@@ -7,14 +7,14 @@
 // nothing but where the solid is, so that two runs give the same bits.
 
 // B_s of each touch
-@group(0) @binding(1) var<storage, read> weights: array<f32>;
-@group(0) @binding(2) var<storage, read> solids: array<Solid>;
+@group(0) @binding(BIND_Weights) var<storage, read> weights: array<f32>;
+@group(0) @binding(BIND_Solids) var<storage, read> solids: array<Solid>;
 // Touches of each solid
-@group(0) @binding(3) var<storage, read> counts: array<u32>;
+@group(0) @binding(BIND_Counts) var<storage, read> counts: array<u32>;
 // (force, Σ B_s) and (torque, 0) of each solid
-@group(0) @binding(5) var<storage, read_write> loads: array<vec4<f32>>;
+@group(0) @binding(BIND_Loads) var<storage, read_write> loads: array<vec4<f32>>;
 // The record of the cell of each touch
-@group(0) @binding(6) var<storage, read> links: array<u32>;
+@group(0) @binding(BIND_Links) var<storage, read> links: array<u32>;
 
 var<workgroup> force: array<vec3<f32>, LANES>;
 var<workgroup> torque: array<vec3<f32>, LANES>;

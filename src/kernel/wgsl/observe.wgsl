@@ -1,6 +1,6 @@
 // The populations of the listed cells before their next collision, 19 to a cell.
 
-@group(0) @binding(60) var<storage, read_write> seen: array<f32>;
+@group(0) @binding(BIND_Seen) var<storage, read_write> seen: array<f32>;
 
 @compute @workgroup_size(64)
 fn observe(@builtin(global_invocation_id) id: vec3<u32>) {

@@ -1,19 +1,19 @@
 // What each covered cell is made of, from the touches of its solids.
 
-@group(0) @binding(0) var<storage, read> solids: array<Solid>;
-@group(0) @binding(3) var<storage, read> counts: array<u32>;
-@group(0) @binding(4) var<storage, read_write> slots: array<u32>;
-@group(0) @binding(5) var<storage, read> touches: array<vec2<u32>>;
+@group(0) @binding(BIND_Solids) var<storage, read> solids: array<Solid>;
+@group(0) @binding(BIND_Counts) var<storage, read> counts: array<u32>;
+@group(0) @binding(BIND_Slots) var<storage, read_write> slots: array<u32>;
+@group(0) @binding(BIND_Touches) var<storage, read> touches: array<vec2<u32>>;
 // The touch of the same cell that came before; from here on the record of the cell.
-@group(0) @binding(6) var<storage, read_write> links: array<u32>;
+@group(0) @binding(BIND_Links) var<storage, read_write> links: array<u32>;
 // B_s of each touch.
-@group(0) @binding(7) var<storage, read_write> weights: array<f32>;
+@group(0) @binding(BIND_Weights) var<storage, read_write> weights: array<f32>;
 // Of cells in which solids meet: what Σ B_s u_s u_s is above that of one solid with the mean velocity.
-@group(0) @binding(8) var<storage, read_write> excess: array<vec4<f32>>;
+@group(0) @binding(BIND_Excess) var<storage, read_write> excess: array<vec4<f32>>;
 // How many cells one solid touches, and how many several do; and their lists.
-@group(0) @binding(9) var<storage, read_write> found: array<atomic<u32>, 2>;
-@group(0) @binding(10) var<storage, read_write> single: array<u32>;
-@group(0) @binding(11) var<storage, read_write> shared_by_many: array<u32>;
+@group(0) @binding(BIND_Found) var<storage, read_write> found: array<atomic<u32>, 2>;
+@group(0) @binding(BIND_Alone) var<storage, read_write> single: array<u32>;
+@group(0) @binding(BIND_Meetings) var<storage, read_write> shared_by_many: array<u32>;
 
 // The weight B of a cell in which the solid fractions add up to `sum`.
 fn weight_of(sum: f32) -> f32 {

@@ -23,20 +23,20 @@ struct SolidPart {
 //#if SLOTS
 // Per cell the number of its record, or 0.
 //#if MOVING
-@group(0) @binding(41) var<storage, read> slots: array<u32>;
+@group(0) @binding(BIND_Slots) var<storage, read> slots: array<u32>;
 
 fn slot_of(x: u32, y: u32, z: u32) -> u32 {
     return slots[x + NX * (y + NY * z)];
 }
 //#else
 //#if TEXTURES
-@group(0) @binding(41) var slots: texture_storage_3d<r32uint, read>;
+@group(0) @binding(BIND_Slots) var slots: texture_storage_3d<r32uint, read>;
 
 fn slot_of(x: u32, y: u32, z: u32) -> u32 {
     return textureLoad(slots, vec3<u32>(x, y, z)).x;
 }
 //#else
-@group(0) @binding(41) var<storage, read> slots: array<u32>;
+@group(0) @binding(BIND_Slots) var<storage, read> slots: array<u32>;
 
 fn slot_of(x: u32, y: u32, z: u32) -> u32 {
     return slots[x + STEP_Y * y + STEP_Z * z];
@@ -49,7 +49,7 @@ fn slot_of(x: u32, y: u32, z: u32) -> u32 {
 //#if MANY
 // Of the first listed cells, in which several solids meet: what Σ B_s u_s u_s is above that of one solid
 // with the mean velocity (xx, yy, zz, 0), (xy, yz, xz, 0).
-@group(0) @binding(43) var<storage, read> excess: array<vec4<f32>>;
+@group(0) @binding(BIND_Excess) var<storage, read> excess: array<vec4<f32>>;
 //#end
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
@@ -86,13 +86,13 @@ fn solid_part_of_listed(number: u32, x: u32, y: u32, z: u32) -> SolidPart {
 //#else
 // B of each cell.
 //#if TEXTURES
-@group(0) @binding(40) var weights: texture_storage_3d<r32float, read>;
+@group(0) @binding(BIND_CellWeights) var weights: texture_storage_3d<r32float, read>;
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
     return SolidPart(textureLoad(weights, vec3<u32>(x, y, z)).x);
 }
 //#else
-@group(0) @binding(40) var<storage, read> weights: array<f32>;
+@group(0) @binding(BIND_CellWeights) var<storage, read> weights: array<f32>;
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
     return SolidPart(weights[x + STEP_Y * y + STEP_Z * z]);

@@ -16,7 +16,7 @@ struct Part {
     spare: u32,
 }
 
-@group(0) @binding(60) var<storage, read_write> parts: array<Part>;
+@group(0) @binding(BIND_Seen) var<storage, read_write> parts: array<Part>;
 
 // Not NaN and not infinite, by the bits: compilers may take for granted that there is neither.
 fn is_finite(value: f32) -> bool {

@@ -12,8 +12,8 @@ struct Task {
     many: u32,
 }
 
-@group(0) @binding(50) var<uniform> task: Task;
-@group(0) @binding(51) var<storage, read> cell_list: array<u32>;
+@group(0) @binding(BIND_Task) var<uniform> task: Task;
+@group(0) @binding(BIND_CellList) var<storage, read> cell_list: array<u32>;
 
 fn listed(number: u32) -> u32 {
     if (task.is_listed == 1u) {
