@@ -61,28 +61,28 @@ pub struct Mark {
 }
 
 /// A CSV file that is being written.
-pub struct Table {
+pub struct TableFile {
     writer: ::csv::Writer<Hashed<File>>,
 }
 
-impl fmt::Debug for Table {
+impl fmt::Debug for TableFile {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        out.debug_struct("Table").field("file", &self.writer.get_ref().inner).finish()
+        out.debug_struct("TableFile").field("file", &self.writer.get_ref().inner).finish()
     }
 }
 
-impl Table {
+impl TableFile {
     /// Makes the file and writes its first line. Errors if it exists.
     pub fn create(path: &Path, columns: &[Column]) -> io::Result<Self> {
         let file = OpenOptions::new().read(true).write(true).create_new(true).open(path)?;
         let mut writer = ::csv::Writer::from_writer(Hashed::new(file));
         writer.write_record(columns.iter().map(Column::title))?;
         writer.flush()?;
-        Ok(Table { writer })
+        Ok(TableFile { writer })
     }
 
     /// Opens a file that begins with the bytes of `mark`, to go on after them. Errors if it begins with
-    /// others. Nothing is changed yet: [`Table::cut`] drops what came after.
+    /// others. Nothing is changed yet: [`TableFile::cut`] drops what came after.
     pub fn reopen(path: &Path, mark: Mark) -> io::Result<Self> {
         let mut out = Hashed::new(OpenOptions::new().read(true).write(true).open(path)?);
         let mut left = mark.length;
@@ -105,10 +105,10 @@ impl Table {
                 mark.length
             )));
         }
-        Ok(Table { writer: ::csv::Writer::from_writer(out) })
+        Ok(TableFile { writer: ::csv::Writer::from_writer(out) })
     }
 
-    /// Drops what comes after the bytes that [`Table::reopen`] has found.
+    /// Drops what comes after the bytes that [`TableFile::reopen`] has found.
     pub fn cut(&mut self) -> io::Result<()> {
         let out = self.writer.get_ref();
         out.inner.set_len(out.length())

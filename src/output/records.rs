@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Shape;
 
-use super::csv::{Column, Mark, Table, Value};
+use super::csv::{Column, Mark, TableFile, Value};
 use super::{between, grain_means, names, snapshots};
 use crate::engine::{CellState, Engine};
 use crate::scene::{Record, Scene, What};
@@ -79,14 +79,14 @@ pub struct Recorder {
     pub record: Record,
     folder: PathBuf,
     /// The file of a record that is a table.
-    table: Option<Table>,
+    table: Option<TableFile>,
 }
 
 impl Recorder {
     /// Begins a record in `folder`.
     pub fn create(record: &Record, folder: &Path) -> io::Result<Self> {
         let path = table_path(record, folder);
-        let table = columns(record).map(|columns| named(&path, Table::create(&path, &columns)));
+        let table = columns(record).map(|columns| named(&path, TableFile::create(&path, &columns)));
         let table = table.transpose()?;
         Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
     }
@@ -96,7 +96,7 @@ impl Recorder {
     pub fn reopen(record: &Record, folder: &Path, mark: Mark) -> io::Result<Self> {
         let path = table_path(record, folder);
         let table =
-            columns(record).map(|_| named(&path, Table::reopen(&path, mark))).transpose()?;
+            columns(record).map(|_| named(&path, TableFile::reopen(&path, mark))).transpose()?;
         Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
     }
 
