@@ -1,4 +1,7 @@
 //! The time loop: steps, records, checkpoints, and when to stop.
+//!
+//! No record or checkpoint holds a broken state: the loop checks the state before it writes, and the guard does besides,
+//! every 16 steps.
 
 pub mod steady;
 

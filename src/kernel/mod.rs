@@ -21,6 +21,11 @@
 //! **Architecture invariant:** of the oracle this takes words for set-ups only (directions, domain,
 //! solids, which models are on). Weights, equilibria, collision, faces and coverage are its own, so
 //! that each checks the other. `tests/suite/tidy.rs` holds this.
+//!
+//! **Decisions.** Pulling from one copy and writing the other lets every face rule read what the oracle's reads. Cells at
+//! faces and, where few cells are solid, solid cells are listed and computed again with the rules that they need. One
+//! workgroup a solid adds up `B_s (j - ρ u_s)`, which is what a solid receives with either operator, in a fixed order.
+//! Cells inside fixed solids are not skipped: the oracle collides them too, and skipping them would save 5 % only.
 
 mod bindings;
 mod buffers;
