@@ -183,6 +183,35 @@ fn stream_before_a_non_reflecting_outlet_has_left_of_its_start_what_check_says()
     assert_eq!(warned(&scene(&moving), "holds its pressure again"), None);
 }
 
+#[test]
+fn pressure_difference_between_non_reflecting_faces_accelerates_as_slowly_as_check_says() {
+    // Without walls: the acceleration is that of the pressure difference on the mass between the faces.
+    let inlet = PLUG.find("x_low").unwrap()..PLUG.find("x_high").unwrap();
+    let mut text = PLUG.replace("pressure = 0.0", "pressure = 0.0, non_reflecting = true");
+    text.replace_range(inlet, "x_low = { kind = \"pressure\", pressure = 1.2e-8, LOW }\n");
+    for (low, times) in [("non_reflecting = true", 9.0), ("developed = true", 5.0)] {
+        let scene = scene(&text.replace("LOW", low));
+        let due = warned(&scene, "accelerates the fluid").expect("their inertia is warned of");
+        assert_eq!(said(&due.reason, "as if the domain were ", "times"), times, "{due:?}");
+        Budget::oracle(150_000).spend(32 * 4000);
+        let mut engine = ReferenceEngine::new(&scene).unwrap();
+        engine.step(2000).unwrap();
+        let before = engine.box_means().mass_flux.x;
+        engine.step(2000).unwrap();
+        let gained = (engine.box_means().mass_flux.x - before) / 2000.0;
+        let expected = 1.2e-8 / scene.units.si_pressure() / (32.0 * times);
+        // Why 2 %: each face is known to half a cell of 32 and more.
+        assert!(
+            (gained / expected - 1.0).abs() < 0.02,
+            "{low}: the fluid gains {gained:e} a step, as is said {expected:e}"
+        );
+    }
+    let developed = text
+        .replace("non_reflecting = true", "developed = true")
+        .replace("LOW", "developed = true");
+    assert_eq!(warned(&scene(&developed), "accelerates the fluid"), None);
+}
+
 /// A free grain before the outlet.
 const GRAIN: &str = r#"
 [gravity]

@@ -1,6 +1,7 @@
-//! Warnings of what pressure faces do to a channel between walls.
+//! Warnings of what pressure faces do to the flow between them.
 
 use psmrt_reference::domain::{FACE_NAMES, Face};
+use psmrt_reference::lattice::CS2;
 
 use super::warning;
 use crate::estimate::Warning;
@@ -13,6 +14,9 @@ use crate::scene::Scene;
 /// square duct gives 0.042.
 const SHORTER: f64 = 0.051;
 
+/// More inertia than this share of the domain's is worth a word.
+const SLOW: f64 = 0.1;
+
 /// A change of the flow smaller than this is not worth a word.
 const SMALL: f64 = 0.01;
 
@@ -23,10 +27,34 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let domain = &scene.setup.domain;
     let holds = |face: &Face| face.held_density().is_some();
     let between = |axis: &usize| domain.faces().axis(*axis).iter().all(holds);
-    if solid_fraction(scene) > FEW {
-        return Vec::new();
+    let axes: Vec<usize> = (0..3).filter(between).collect();
+    let slow = axes.iter().filter_map(|&axis| inertia(scene, axis));
+    let few = solid_fraction(scene) <= FEW;
+    let short = axes.iter().filter(|_| few).filter_map(|&axis| ends(scene, axis));
+    slow.chain(short).collect()
+}
+
+/// What non-reflecting faces at the ends of `axis` do to a flow that changes.
+fn inertia(scene: &Scene, axis: usize) -> Option<Warning> {
+    let domain = &scene.setup.domain;
+    // ρ_w - ρ_0 = ρ/c_s (u_n - m) = (ρ T/c_s) dm/dt: each acts like c_s T more cells.
+    let cells_more = domain.faces().axis(axis).map(|face| match face {
+        Face::NonReflectingPressure { memory, .. } => CS2.sqrt() * memory,
+        _ => 0.0,
+    });
+    let share = cells_more.iter().sum::<f64>() / domain.cells()[axis] as f64;
+    if share < SLOW {
+        return None;
     }
-    (0..3).filter(between).filter_map(|axis| ends(scene, axis)).collect()
+    let [low, high] = FACE_NAMES[axis];
+    let reason = format!(
+        "non-reflecting faces give way to a change of the flow: the pressure difference between {low} and {high} \
+         accelerates the fluid as if the domain were {:.1} times as long; the steady flow is that of the pressures given",
+        1.0 + share
+    );
+    let remedy = "if the start or a change of the flow matters give the faces a shorter `memory`, or say \
+                  `developed = true` instead of `non_reflecting = true`";
+    Some(warning(reason, remedy))
 }
 
 /// What the ends along `axis` do to the flow.
