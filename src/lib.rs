@@ -15,7 +15,7 @@
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
 //! | [`tradeoff`] | error models, and the runs that they rest on |
-//! | [`plan`] | the cheapest way to compute a scene to a given error |
+//! | [`plan`] | the cheapest settings with which a scene has a given error |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
 //! | [`stability`] | how fast a flow may be and how light a grain, from the maps of stability |
 //! | [`table`] | rows of named columns, as CSV files hold them |

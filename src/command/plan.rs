@@ -1,4 +1,4 @@
-//! `psmrt plan`: the cheapest way to compute a scene to a given error.
+//! `psmrt plan`: the cheapest settings to compute a scene to a given error.
 
 use psmrt_reference::collision::Preset;
 use std::io::Write;
@@ -15,7 +15,9 @@ use crate::estimate::calibrate;
 use crate::kernel::adapters;
 use crate::output::atomic;
 use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::{Speed, Way, as_it_is, cheapest, most_accurate, ways, why_none};
+use crate::plan::options::{
+    PlanOption, Speed, as_it_is, cheapest, most_accurate, options, why_none,
+};
 use crate::plan::predict::{Outside, percent};
 use crate::plan::write::text;
 use crate::quote;
@@ -83,7 +85,7 @@ impl std::str::FromStr for Wanted {
 /// How long the speed of an engine is measured.
 const CALIBRATION: Duration = Duration::from_millis(400);
 
-/// Makes a plan. Errors if the evidence knows nothing of such a scene, or no way reaches the error.
+/// Makes a plan. Errors if the evidence knows nothing of such a scene, or no option reaches the error.
 pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
     let name = request.scene.display();
@@ -103,7 +105,7 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
             now_words(&now)
         )));
     }
-    let all = ways(&facts, models, &speeds);
+    let all = options(&facts, models, &speeds);
     let Some(best) = cheapest(&all, wanted) else {
         return Err(unreachable_error(&all, wanted, (&facts, models), &now));
     };
@@ -112,7 +114,7 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     if request.json {
         let alternatives: Vec<Value> = alternatives
             .iter()
-            .map(|(what, way)| json!({ "what": what, "way": way.map(to_json) }))
+            .map(|(what, option)| json!({ "what": what, "way": option.map(to_json) }))
             .collect();
         let all = json!({
             "wanted": wanted, "now": now.as_ref().ok().map(to_json), "plan": to_json(best),
@@ -129,7 +131,12 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
 }
 
 /// The scene as it is, on its own engine.
-fn now(scene: &Scene, facts: &Facts, models: &Models, speeds: &[Speed]) -> Result<Way, Outside> {
+fn now(
+    scene: &Scene,
+    facts: &Facts,
+    models: &Models,
+    speeds: &[Speed],
+) -> Result<PlanOption, Outside> {
     let none = |why: &str| Outside { why: why.to_owned(), nearest: None, may_be_worse: true };
     let collision = Preset::of(&scene.setup.collision)
         .ok_or_else(|| none("no run of the evidence has its relaxation rates"))?;
@@ -140,7 +147,7 @@ fn now(scene: &Scene, facts: &Facts, models: &Models, speeds: &[Speed]) -> Resul
 }
 
 /// The scene as it is, at the end of a message.
-fn now_words(now: &Result<Way, Outside>) -> String {
+fn now_words(now: &Result<PlanOption, Outside>) -> String {
     match now {
         Ok(now) => format!(
             "\nas it is: {} ({} to {}), {}",
@@ -182,10 +189,10 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
 }
 
 fn unreachable_error(
-    all: &[Way],
+    all: &[PlanOption],
     wanted: f64,
     (facts, models): (&Facts, &Models),
-    now: &Result<Way, Outside>,
+    now: &Result<PlanOption, Outside>,
 ) -> CommandError {
     let now = now_words(now);
     let Some(best) = most_accurate(all, f64::INFINITY) else {
@@ -204,14 +211,19 @@ fn unreachable_error(
 }
 
 /// What lies around a plan.
-fn alternatives<'a>(all: &'a [Way], best: &Way, wanted: f64) -> Vec<(String, Option<&'a Way>)> {
+fn alternatives<'a>(
+    all: &'a [PlanOption],
+    best: &PlanOption,
+    wanted: f64,
+) -> Vec<(String, Option<&'a PlanOption>)> {
     let mut found = vec![
         ("twice as fast".to_owned(), most_accurate(all, 0.5 * best.seconds)),
         ("half the error".to_owned(), cheapest(all, 0.5 * wanted)),
     ];
     for collision in Preset::ALL.into_iter().filter(|&other| other != best.collision) {
-        let own: Vec<&Way> = all.iter().filter(|way| way.collision == collision).collect();
-        let best = own.into_iter().filter(|way| way.band[1] <= wanted);
+        let own: Vec<&PlanOption> =
+            all.iter().filter(|option| option.collision == collision).collect();
+        let best = own.into_iter().filter(|option| option.band[1] <= wanted);
         let best = best.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
         found.push((format!("with {}", collision.title()), best));
     }
@@ -219,7 +231,7 @@ fn alternatives<'a>(all: &'a [Way], best: &Way, wanted: f64) -> Vec<(String, Opt
 }
 
 /// What a plan rests on, a line each.
-fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, TableError> {
+fn evidence(facts: &Facts, models: &Models, best: &PlanOption) -> Result<Vec<String>, TableError> {
     match &facts.limit {
         Limit::Grains { drag, because, .. } => {
             let mut lines = vec![format!(
@@ -249,7 +261,7 @@ fn evidence(facts: &Facts, models: &Models, best: &Way) -> Result<Vec<String>, T
 fn write_scene(
     scene: &Scene,
     request: &PlanRequest,
-    best: &Way,
+    best: &PlanOption,
     file: &Path,
 ) -> Result<(), CommandError> {
     let failed = |error: String| CommandError::Write { path: file.display().to_string(), error };

@@ -5,28 +5,28 @@ use serde_json::{Value, json};
 use super::check::duration;
 use super::say::say;
 use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::Way;
+use crate::plan::options::PlanOption;
 use crate::plan::predict::{Outside, percent};
 use crate::scene::Scene;
 
-/// A way in one line.
-pub(super) fn words(way: &Way) -> String {
-    let [nx, ny, nz] = way.cells;
+/// An option in one line.
+pub(super) fn words(option: &PlanOption) -> String {
+    let [nx, ny, nz] = option.cells;
     format!(
         "{nx} x {ny} x {nz} cells ({:.1} across), tau {}, {}, engine {}",
-        way.resolution,
-        way.tau,
-        way.collision.title(),
-        way.engine
+        option.resolution,
+        option.tau,
+        option.collision.title(),
+        option.engine
     )
 }
 
-/// A way for scripts.
-pub(super) fn to_json(way: &Way) -> Value {
+/// An option for scripts.
+pub(super) fn to_json(option: &PlanOption) -> Value {
     json!({
-        "cells": way.cells, "dx_m": way.si_dx, "resolution": way.resolution, "tau": way.tau,
-        "collision": way.collision.word(), "engine": way.engine, "lattice_velocity": way.velocity,
-        "steps": way.steps, "error": way.error, "band": way.band, "seconds": way.seconds,
+        "cells": option.cells, "dx_m": option.si_dx, "resolution": option.resolution, "tau": option.tau,
+        "collision": option.collision.word(), "engine": option.engine, "lattice_velocity": option.velocity,
+        "steps": option.steps, "error": option.error, "band": option.band, "seconds": option.seconds,
     })
 }
 
@@ -35,9 +35,9 @@ pub(super) fn print(
     scene: &Scene,
     facts: &Facts,
     wanted: f64,
-    now: Result<&Way, &Outside>,
-    best: &Way,
-    alternatives: &[(String, Option<&Way>)],
+    now: Result<&PlanOption, &Outside>,
+    best: &PlanOption,
+    alternatives: &[(String, Option<&PlanOption>)],
     evidence: &[String],
 ) {
     if !scene.title.is_empty() {
@@ -51,16 +51,16 @@ pub(super) fn print(
         "  {:<21}{across:>21}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
         "", "tau", "collision", "engine", "error", "95 % lie within", "time"
     ));
-    let line = |what: &str, way: Option<&Way>| match way {
-        Some(way) => say(&format!(
+    let line = |what: &str, option: Option<&PlanOption>| match option {
+        Some(option) => say(&format!(
             "  {what:<21}{:>21.1}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
-            way.resolution,
-            way.tau,
-            way.collision.title(),
-            way.engine,
-            percent(way.error),
-            format!("{} to {}", percent(way.band[0]), percent(way.band[1])),
-            duration(way.seconds)
+            option.resolution,
+            option.tau,
+            option.collision.title(),
+            option.engine,
+            percent(option.error),
+            format!("{} to {}", percent(option.band[0]), percent(option.band[1])),
+            duration(option.seconds)
         )),
         None => say(&format!("  {what:<21}none within the evidence")),
     };
@@ -69,8 +69,8 @@ pub(super) fn print(
         Err(outside) => say(&format!("  {:<21}{}", "as it is", outside.why)),
     }
     line(&format!("plan for {}", percent(wanted)), Some(best));
-    for (what, way) in alternatives {
-        line(what, *way);
+    for (what, option) in alternatives {
+        line(what, *option);
     }
     let [nx, ny, nz] = best.cells;
     say(&format!(

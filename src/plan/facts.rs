@@ -19,7 +19,7 @@ use crate::estimate::warnings::stability::mapped;
 use crate::scene::Scene;
 use crate::stability::limits::Measured;
 use crate::table::{Table, TableError};
-use crate::tradeoff::evidence::SolidKnob;
+use crate::tradeoff::evidence::SolidMethod;
 
 const ARRAYS: &str = include_str!("../../golden/sphere_arrays/literature.csv");
 const SHAFTS: &str = include_str!("../../golden/stokes_settling/literature.csv");
@@ -69,7 +69,7 @@ pub struct Facts {
     /// What limits it.
     pub limit: Limit,
     /// How its solid cells collide.
-    pub solid: SolidKnob,
+    pub solid: SolidMethod,
     /// Cells along the axes.
     pub cells: [usize; 3],
     /// Axes of one cell, along which nothing changes.
@@ -123,11 +123,13 @@ impl Facts {
         let phase = setup.solid_phase.as_ref().map(|phase| (phase.weighting, phase.operator));
         let solid = match phase.unwrap_or_default() {
             (Weighting::NobleTorczynski, SolidOperator::NonEquilibriumBounceBack) => {
-                SolidKnob::Usual
+                SolidMethod::Usual
             }
-            (Weighting::NobleTorczynski, SolidOperator::Superposition) => SolidKnob::Superposition,
+            (Weighting::NobleTorczynski, SolidOperator::Superposition) => {
+                SolidMethod::Superposition
+            }
             (Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack) => {
-                SolidKnob::SolidFraction
+                SolidMethod::SolidFraction
             }
             (Weighting::SolidFraction, SolidOperator::Superposition) => {
                 let why = "it has both B = epsilon and the superposition operator, which no run of the \

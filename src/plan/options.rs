@@ -4,7 +4,7 @@ use psmrt_reference::collision::Preset;
 use psmrt_reference::lattice::viscosity;
 
 use super::facts::{Facts, Limit};
-use super::predict::{Knobs, Outside, WALL_CELLS, is_heavy_enough, predict};
+use super::predict::{Outside, Parameters, WALL_CELLS, is_heavy_enough, predict};
 use crate::tradeoff::model::Models;
 
 /// Relaxation times that are tried.
@@ -27,9 +27,9 @@ pub struct Speed {
     pub srt: f64,
 }
 
-/// One way to compute the scene.
+/// One option: settings with which the scene can be computed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct PlanOption {
     /// Cells along the axes.
     pub cells: [usize; 3],
     /// Edge of a cell, m.
@@ -54,10 +54,10 @@ pub struct Way {
     pub seconds: f64,
 }
 
-/// All ways for a scene on these engines.
-pub fn ways(facts: &Facts, models: &Models, speeds: &[Speed]) -> Vec<Way> {
+/// All options for a scene on these engines.
+pub fn options(facts: &Facts, models: &Models, speeds: &[Speed]) -> Vec<PlanOption> {
     let refinements = refinements(facts);
-    let mut ways = Vec::new();
+    let mut options = Vec::new();
     for tau in TAUS.into_iter().filter(|&tau| is_heavy_enough(facts, tau)) {
         for collision in Preset::ALL {
             let fastest = fastest(facts, tau, collision);
@@ -66,12 +66,12 @@ pub fn ways(facts: &Facts, models: &Models, speeds: &[Speed]) -> Vec<Way> {
                     continue;
                 }
                 for speed in speeds {
-                    ways.extend(way(facts, models, refinement, (tau, collision), speed));
+                    options.extend(option(facts, models, refinement, (tau, collision), speed));
                 }
             }
         }
     }
-    ways
+    options
 }
 
 /// Whether no map of stability and no error of compressibility forbids a flow as fast as that of a scene.
@@ -84,7 +84,7 @@ fn is_slow_enough(facts: &Facts, si_dx: f64, tau: f64, fastest: f64) -> bool {
     mapped <= fastest && velocity.is_none_or(|u| u <= FASTEST && u / nu <= GRID_REYNOLDS)
 }
 
-/// Why there is no way to compute a scene at all.
+/// Why there is no option to compute a scene at all.
 pub fn why_none(facts: &Facts, models: &Models) -> String {
     if let Some((ratio, _)) = facts.lightest
         && !TAUS.into_iter().any(|tau| is_heavy_enough(facts, tau))
@@ -101,9 +101,9 @@ pub fn why_none(facts: &Facts, models: &Models) -> String {
     let heavy = Facts { lightest: None, ..facts.clone() };
     let is_known = |&resolution: &f64| {
         Preset::ALL.into_iter().any(|collision| {
-            let knobs =
-                Knobs { resolution, tau: 0.8, collision, single: false, velocity: Some(0.0) };
-            predict(&heavy, models, &knobs).is_ok()
+            let parameters =
+                Parameters { resolution, tau: 0.8, collision, single: false, velocity: Some(0.0) };
+            predict(&heavy, models, &parameters).is_ok()
         })
     };
     if !resolutions.iter().any(is_known) {
@@ -133,8 +133,8 @@ pub fn as_it_is(
     models: &Models,
     collision: Preset,
     speed: &Speed,
-) -> Result<Way, Outside> {
-    way(facts, models, (facts.cells, facts.si_dx), (facts.tau, collision), speed)
+) -> Result<PlanOption, Outside> {
+    option(facts, models, (facts.cells, facts.si_dx), (facts.tau, collision), speed)
 }
 
 /// Cells along the axes and edge of a cell, for every grid that fills the domain.
@@ -160,24 +160,24 @@ fn gcd(a: usize, b: usize) -> usize {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-fn way(
+fn option(
     facts: &Facts,
     models: &Models,
     (cells, si_dx): ([usize; 3], f64),
     (tau, collision): (f64, Preset),
     speed: &Speed,
-) -> Result<Way, Outside> {
+) -> Result<PlanOption, Outside> {
     let si_dt = viscosity(tau) * si_dx * si_dx / facts.si_viscosity;
     let velocity = facts.si_velocity.map(|si_velocity| si_velocity * si_dt / si_dx);
     let resolution = facts.limit.cells() * facts.si_dx / si_dx;
     let single = speed.engine == "wgpu";
     let predicted =
-        predict(facts, models, &Knobs { resolution, tau, collision, single, velocity })?;
+        predict(facts, models, &Parameters { resolution, tau, collision, single, velocity })?;
     let (error, band) = predicted.size();
     let steps = (facts.si_time / si_dt).ceil();
     let cost = if collision == Preset::Srt { speed.srt } else { speed.mrt };
     let count = cells.iter().map(|&n| n as f64).product::<f64>();
-    Ok(Way {
+    Ok(PlanOption {
         cells,
         si_dx,
         resolution,
@@ -192,15 +192,15 @@ fn way(
     })
 }
 
-/// The cheapest way whose error stays below `most` with its whole band; of equally cheap ones the most
+/// The cheapest option whose error stays below `most` with its whole band; of equally cheap ones the most
 /// accurate.
-pub fn cheapest(ways: &[Way], most: f64) -> Option<&Way> {
-    let good = ways.iter().filter(|way| way.band[1] <= most);
+pub fn cheapest(options: &[PlanOption], most: f64) -> Option<&PlanOption> {
+    let good = options.iter().filter(|option| option.band[1] <= most);
     good.min_by(|a, b| a.seconds.total_cmp(&b.seconds).then(a.error.total_cmp(&b.error)))
 }
 
-/// The most accurate way that takes at most `seconds`.
-pub fn most_accurate(ways: &[Way], seconds: f64) -> Option<&Way> {
-    let fast = ways.iter().filter(|way| way.seconds <= seconds);
+/// The most accurate option that takes at most `seconds`.
+pub fn most_accurate(options: &[PlanOption], seconds: f64) -> Option<&PlanOption> {
+    let fast = options.iter().filter(|option| option.seconds <= seconds);
     fast.min_by(|a, b| a.band[1].total_cmp(&b.band[1]).then(a.seconds.total_cmp(&b.seconds)))
 }

@@ -14,7 +14,7 @@ const WALL_ROUNDING: f64 = 1e-4;
 
 /// How a scene is computed, as far as its error depends on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Knobs {
+pub struct Parameters {
     /// Cells across the smallest grain, or from wall to wall.
     pub resolution: f64,
     /// Relaxation time.
@@ -65,8 +65,12 @@ impl Outside {
 }
 
 /// What is predicted; if that lies outside the evidence, why.
-pub fn predict(facts: &Facts, models: &Models, knobs: &Knobs) -> Result<Predicted, Outside> {
-    let Knobs { resolution, tau, collision, single, velocity } = *knobs;
+pub fn predict(
+    facts: &Facts,
+    models: &Models,
+    parameters: &Parameters,
+) -> Result<Predicted, Outside> {
+    let Parameters { resolution, tau, collision, single, velocity } = *parameters;
     if let Some((ratio, _)) = facts.lightest.filter(|_| !is_heavy_enough(facts, tau)) {
         return Err(Outside::method(format!(
             "a free grain of {ratio:.2} times the density of the fluid does not stay alive and right at tau = {} \

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use toml_edit::{DocumentMut, Item, Table, value};
 
-use super::options::Way;
+use super::options::PlanOption;
 use crate::scene::Scene;
 
 /// The text of `scene` computed in this way, with `comment` above it; files that it names are looked for
@@ -14,18 +14,18 @@ use crate::scene::Scene;
 pub fn text(
     scene: &Scene,
     folder: &Path,
-    way: &Way,
+    option: &PlanOption,
     comment: &str,
 ) -> Result<String, toml_edit::TomlError> {
     let mut document = scene.text.parse::<DocumentMut>()?;
-    domain(&mut document, way);
+    domain(&mut document, option);
     let time = section(&mut document, "time");
     for key in ["dt", "lattice_velocity", "reference_velocity"] {
         time.remove(key);
     }
-    time.insert("tau", value(way.tau));
+    time.insert("tau", value(option.tau));
     document.remove("collision");
-    match way.collision {
+    match option.collision {
         Preset::DHumieres => {}
         Preset::Srt => {
             section(&mut document, "collision").insert("model", value("srt"));
@@ -36,9 +36,9 @@ pub fn text(
             collision.insert("magic", value(3.0 / 16.0));
         }
     }
-    section(&mut document, "engine").insert("kind", value(&way.engine));
+    section(&mut document, "engine").insert("kind", value(&option.engine));
     // What is given in steps stays the same in seconds.
-    let si_dt = (way.tau - 0.5) / 3.0 * way.si_dx * way.si_dx
+    let si_dt = (option.tau - 0.5) / 3.0 * option.si_dx * option.si_dx
         / (psmrt_reference::lattice::viscosity(scene.setup.collision.tau())
             * scene.units.si_viscosity());
     let steps = |item: &mut Item| {
@@ -67,14 +67,14 @@ pub fn text(
     Ok(format!("{comment}\n{document}"))
 }
 
-fn domain(document: &mut DocumentMut, way: &Way) {
+fn domain(document: &mut DocumentMut, option: &PlanOption) {
     let domain = section(document, "domain");
-    domain.insert("dx", value(way.si_dx));
+    domain.insert("dx", value(option.si_dx));
     if domain.contains_key("cells") {
-        let cells = way.cells.iter().map(|&n| i64::try_from(n).unwrap_or(i64::MAX));
+        let cells = option.cells.iter().map(|&n| i64::try_from(n).unwrap_or(i64::MAX));
         domain.insert("cells", value(cells.collect::<toml_edit::Array>()));
     } else {
-        let lengths = way.cells.iter().map(|&n| n as f64 * way.si_dx);
+        let lengths = option.cells.iter().map(|&n| n as f64 * option.si_dx);
         domain.insert("size", value(lengths.collect::<toml_edit::Array>()));
     }
 }

@@ -1,6 +1,6 @@
 //! The runs that error models rest on: the committed sweep, and the older study of arrays.
 
-use super::knobs::{Flow, Knobs, Storage};
+use super::parameters::{Flow, Parameters, Storage};
 use super::row::Row;
 use crate::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
@@ -25,7 +25,7 @@ const MOST_REYNOLDS: f64 = 0.06;
 
 /// How cells collide that are solid in part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SolidKnob {
+pub enum SolidMethod {
     /// Noble and Torczynski's weight, bounce-back operator.
     Usual,
     /// The superposition operator.
@@ -34,13 +34,13 @@ pub enum SolidKnob {
     SolidFraction,
 }
 
-impl SolidKnob {
-    /// That of some knobs; `None` for both turned at once, of which there are no runs.
-    pub fn of(knobs: &Knobs) -> Option<Self> {
-        match (&*knobs.weight, &*knobs.operator) {
-            ("NT", "bounce_back") => Some(SolidKnob::Usual),
-            ("NT", "superposition") => Some(SolidKnob::Superposition),
-            ("eps", "bounce_back") => Some(SolidKnob::SolidFraction),
+impl SolidMethod {
+    /// That of some parameters; `None` for both turned at once, of which there are no runs.
+    pub fn of(parameters: &Parameters) -> Option<Self> {
+        match (&*parameters.weight, &*parameters.operator) {
+            ("NT", "bounce_back") => Some(SolidMethod::Usual),
+            ("NT", "superposition") => Some(SolidMethod::Superposition),
+            ("eps", "bounce_back") => Some(SolidMethod::SolidFraction),
             _ => None,
         }
     }
@@ -48,9 +48,9 @@ impl SolidKnob {
     /// As tables spell it.
     pub fn word(self) -> &'static str {
         match self {
-            SolidKnob::Usual => "NT",
-            SolidKnob::Superposition => "superposition",
-            SolidKnob::SolidFraction => "eps",
+            SolidMethod::Usual => "NT",
+            SolidMethod::Superposition => "superposition",
+            SolidMethod::SolidFraction => "eps",
         }
     }
 }
@@ -59,7 +59,7 @@ impl SolidKnob {
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrainPoint {
     /// How its solid cells collide.
-    pub solid: SolidKnob,
+    pub solid: SolidMethod,
     /// The geometry: points of one geometry share its accidents.
     pub geometry: String,
     /// Where it stands.
@@ -98,22 +98,24 @@ pub fn committed_sweep() -> Result<Vec<Row>, TableError> {
 
 /// Whether a row has exact solid fractions, double precision and slow flow.
 fn is_plain(row: &Row) -> bool {
-    let knobs = &row.knobs;
-    knobs.samples == 0 && knobs.storage == Storage::F64 && knobs.reynolds() < MOST_REYNOLDS
+    let parameters = &row.parameters;
+    parameters.samples == 0
+        && parameters.storage == Storage::F64
+        && parameters.reynolds() < MOST_REYNOLDS
 }
 
 /// The point of a row with grains, if it has an error; whether it is within the range of the models is
 /// not asked.
 pub fn grain_point(row: &Row) -> Option<GrainPoint> {
-    let knobs = &row.knobs;
-    let lattice = knobs.flow.lattice().map_or(knobs.flow.word(), |(name, _)| name);
+    let parameters = &row.parameters;
+    let lattice = parameters.flow.lattice().map_or(parameters.flow.word(), |(name, _)| name);
     Some(GrainPoint {
-        solid: SolidKnob::of(knobs)?,
-        geometry: format!("{lattice} {}", knobs.geometry),
+        solid: SolidMethod::of(parameters)?,
+        geometry: format!("{lattice} {}", parameters.geometry),
         source: "golden/tradeoff/sweep.csv",
-        collision: knobs.collision,
-        cells: knobs.cells_per_diameter()?,
-        tau: knobs.tau,
+        collision: parameters.collision,
+        cells: parameters.cells_per_diameter()?,
+        tau: parameters.tau,
         drag: row.drag,
         error: row.error?,
     })
@@ -121,12 +123,12 @@ pub fn grain_point(row: &Row) -> Option<GrainPoint> {
 
 /// The point of a row between plates, if it has an error.
 pub fn wall_point(row: &Row) -> Option<WallPoint> {
-    let Row { knobs, error, .. } = row;
-    (knobs.flow == Flow::Poiseuille).then_some(WallPoint {
-        collision: knobs.collision,
-        cells: f64::from(knobs.cells),
-        tau: knobs.tau,
-        velocity: knobs.lattice_velocity,
+    let Row { parameters, error, .. } = row;
+    (parameters.flow == Flow::Poiseuille).then_some(WallPoint {
+        collision: parameters.collision,
+        cells: f64::from(parameters.cells),
+        tau: parameters.tau,
+        velocity: parameters.lattice_velocity,
         error: (*error)?,
     })
 }
@@ -186,7 +188,7 @@ fn study() -> Result<Vec<GrainPoint>, TableError> {
             continue;
         }
         points.push(GrainPoint {
-            solid: SolidKnob::Usual,
+            solid: SolidMethod::Usual,
             geometry: format!("{lattice} {fraction}"),
             source: "golden/sphere_arrays/study.csv",
             collision,

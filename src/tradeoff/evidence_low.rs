@@ -1,7 +1,7 @@
 //! The runs with grains at relaxation times below those of the other models: the sweep, the study of arrays, and
 //! the beds of the study of seepage.
 
-use super::evidence::{GrainPoint, LEAST_TAU, SolidKnob, all_grain_points};
+use super::evidence::{GrainPoint, LEAST_TAU, SolidMethod, all_grain_points};
 use super::row::Row;
 use crate::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
@@ -24,7 +24,7 @@ pub fn low_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, TableError> {
     points.retain(|point| {
         point.tau < LEAST_TAU
             && point.collision == Preset::DHumieres
-            && point.solid == SolidKnob::Usual
+            && point.solid == SolidMethod::Usual
     });
     // Some configurations are in two tables, or were run by both engines.
     let mut own: Vec<GrainPoint> = Vec::new();
@@ -54,7 +54,7 @@ impl Bed {
     /// The point of a bed whose permeability should be `exact`.
     fn point(&self, exact: f64) -> GrainPoint {
         GrainPoint {
-            solid: SolidKnob::Usual,
+            solid: SolidMethod::Usual,
             geometry: if self.packing == "fcc" { ORDERED.to_owned() } else { self.packing.clone() },
             source: FILE,
             collision: Preset::DHumieres,

@@ -3,7 +3,7 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `knobs.rs`, `row.rs` | the knobs of a run, and the run as a row of a table |
+//! | `parameters.rs`, `row.rs` | the parameters of a run, and the run as a row of a table |
 //! | `evidence.rs`, `evidence_low.rs`, `fit.rs` | the committed rows that models are fitted to, and how |
 //! | `model.rs`, `model_eps.rs`, `model_low.rs` | error models, fitted to them |
 //! | `cost.rs` | what a collision costs |
@@ -13,10 +13,10 @@ pub mod cost;
 pub mod evidence;
 pub mod evidence_low;
 pub mod fit;
-pub mod knobs;
 pub mod model;
 pub mod model_eps;
 pub mod model_low;
+pub mod parameters;
 pub mod row;
 pub mod support;
 pub mod trial;

@@ -29,7 +29,7 @@ use psmrt_reference::collision::{Collision, Preset};
 use psmrt_reference::rates::Rates;
 
 use super::evidence::{
-    GrainPoint, LEAST_TAU, SolidKnob, WallPoint, committed_sweep, grain_points, wall_points,
+    GrainPoint, LEAST_TAU, SolidMethod, WallPoint, committed_sweep, grain_points, wall_points,
 };
 use super::evidence_low::low_points;
 use super::fit::{Fit, least_squares, rms};
@@ -51,7 +51,7 @@ pub struct GrainModel {
     /// The collision.
     pub collision: Preset,
     /// How solid cells collide.
-    pub solid: SolidKnob,
+    pub solid: SolidMethod,
     /// `ln a`, `ln b`, `m`, `p`, and what they leave.
     pub fit: Fit,
     /// Scatter of the logarithm of the error in geometries left out of the fit.
@@ -74,7 +74,7 @@ const START: [f64; 4] = [1.1, 1.0, 0.8, 3.0];
 impl GrainModel {
     /// Fits the points of a collision whose error is large enough to be of one sign. `None` if there are
     /// too few, or of fewer than three geometries.
-    pub fn fit(collision: Preset, solid: SolidKnob, points: &[GrainPoint]) -> Option<Self> {
+    pub fn fit(collision: Preset, solid: SolidMethod, points: &[GrainPoint]) -> Option<Self> {
         let own = |point: &&GrainPoint| {
             point.collision == collision && point.solid == solid && point.error > LEAST_ERROR
         };
@@ -227,16 +227,16 @@ impl Models {
     pub fn fit(grains: &[GrainPoint], walls: &[WallPoint]) -> Self {
         let all = Preset::ALL;
         let methods = all
-            .map(|knob| (knob, SolidKnob::Usual))
+            .map(|parameter| (parameter, SolidMethod::Usual))
             .into_iter()
-            .chain([(Preset::DHumieres, SolidKnob::Superposition)]);
+            .chain([(Preset::DHumieres, SolidMethod::Superposition)]);
         Models {
             grains: methods
-                .filter_map(|(knob, solid)| GrainModel::fit(knob, solid, grains))
+                .filter_map(|(parameter, solid)| GrainModel::fit(parameter, solid, grains))
                 .collect(),
             eps: EpsModel::fit(grains),
             low: None,
-            walls: all.iter().filter_map(|&knob| WallModel::fit(knob, walls)).collect(),
+            walls: all.iter().filter_map(|&parameter| WallModel::fit(parameter, walls)).collect(),
         }
     }
 
@@ -249,25 +249,25 @@ impl Models {
         let sweep = committed_sweep()?;
         let mut models = Models::fit(&grain_points(&sweep)?, &wall_points(&sweep));
         let low = low_points(&sweep)?;
-        let above = models.of_grains(Preset::DHumieres, SolidKnob::Usual);
+        let above = models.of_grains(Preset::DHumieres, SolidMethod::Usual);
         models.low = above.and_then(|above| LowModel::fit(above, &low));
         Ok(MODELS.get_or_init(|| models))
     }
 
     /// The model with grains of a collision of the fluid and of solid cells.
-    pub fn of_grains(&self, collision: Preset, solid: SolidKnob) -> Option<&GrainModel> {
+    pub fn of_grains(&self, collision: Preset, solid: SolidMethod) -> Option<&GrainModel> {
         self.grains.iter().find(|model| model.collision == collision && model.solid == solid)
     }
 
     /// The error with grains; `None` where nothing was fitted.
     pub fn with_grains(
         &self,
-        (collision, solid): (Preset, SolidKnob),
+        (collision, solid): (Preset, SolidMethod),
         d: f64,
         tau: f64,
         drag: f64,
     ) -> Option<Prediction> {
-        if solid == SolidKnob::SolidFraction {
+        if solid == SolidMethod::SolidFraction {
             let model = self.eps.as_ref().filter(|_| collision == Preset::DHumieres)?;
             return Some(model.prediction(d, tau, drag));
         }
@@ -275,7 +275,7 @@ impl Models {
         let low = self
             .low
             .as_ref()
-            .filter(|_| collision == Preset::DHumieres && solid == SolidKnob::Usual);
+            .filter(|_| collision == Preset::DHumieres && solid == SolidMethod::Usual);
         if let Some(low) = low.filter(|_| tau < LEAST_TAU) {
             return Some(low.prediction(model, d, tau, drag));
         }

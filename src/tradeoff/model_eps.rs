@@ -12,7 +12,7 @@
 //! either way. In dense beds the form is crude, and the band is too wide to plan by. That is a result: there is
 //! no saying how far off `B = ε` is without a run with another weight.
 
-use super::evidence::{GrainPoint, SolidKnob};
+use super::evidence::{GrainPoint, SolidMethod};
 use super::fit::{Fit, least_squares};
 use super::model::{Prediction, QUANTILE, ranges, unseen};
 use psmrt_reference::collision::Preset;
@@ -52,7 +52,7 @@ impl EpsModel {
     /// Fits the points with this weight. `None` if there are too few, or of fewer than three geometries.
     pub fn fit(points: &[GrainPoint]) -> Option<Self> {
         let own = |point: &&GrainPoint| {
-            point.collision == Preset::DHumieres && point.solid == SolidKnob::SolidFraction
+            point.collision == Preset::DHumieres && point.solid == SolidMethod::SolidFraction
         };
         let own: Vec<&GrainPoint> = points.iter().filter(own).collect();
         let (scatter, geometries) = unseen(&own, through, residual)?;

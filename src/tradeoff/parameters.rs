@@ -1,9 +1,9 @@
-//! The knobs of one run, as the tables spell them.
+//! The parameters of one run, as the tables spell them.
 
 use crate::table::TableError;
 use psmrt_reference::collision::Preset;
 
-/// Names of the columns that a row of knobs has.
+/// Names of the columns that a row of parameters has.
 pub const COLUMNS: [&str; 11] = [
     "case",
     "geometry",
@@ -115,7 +115,7 @@ impl Storage {
 
 /// One run: which flow, and how it is computed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Knobs {
+pub struct Parameters {
     /// The flow.
     pub flow: Flow,
     /// Its geometry as the literature spells it; empty for plates.
@@ -140,10 +140,10 @@ pub struct Knobs {
     pub lattice_velocity: f64,
 }
 
-impl Knobs {
+impl Parameters {
     /// The oracle with all defaults.
     pub fn new(flow: Flow, geometry: &str, cells: u32, tau: f64, collision: Preset) -> Self {
-        let mut knobs = Knobs {
+        let mut parameters = Parameters {
             flow,
             geometry: geometry.to_owned(),
             cells,
@@ -156,8 +156,8 @@ impl Knobs {
             storage: Storage::F64,
             lattice_velocity: 0.0,
         };
-        knobs.lattice_velocity = knobs.usual_velocity();
-        knobs
+        parameters.lattice_velocity = parameters.usual_velocity();
+        parameters
     }
 
     /// Diameter of a grain in cells; `None` between plates. NaN if the geometry is no number.
@@ -175,7 +175,7 @@ impl Knobs {
         }
     }
 
-    /// Reynolds number on the diameter, with the velocity of the knob; 0 between plates.
+    /// Reynolds number on the diameter, with the velocity of the parameter; 0 between plates.
     pub fn reynolds(&self) -> f64 {
         let nu = (self.tau - 0.5) / 3.0;
         self.cells_per_diameter().map_or(0.0, |d| self.lattice_velocity * d / nu)
@@ -219,11 +219,11 @@ impl Knobs {
         ]
     }
 
-    /// The knobs of a row of [`COLUMNS`]. Errors if a value is none of the words or no number.
+    /// The parameters of a row of [`COLUMNS`]. Errors if a value is none of the words or no number.
     pub fn from_row(row: &[String]) -> Result<Self, TableError> {
         let wrong = |column: usize| {
             let (name, value) = (COLUMNS[column], row.get(column));
-            TableError(format!("column {name} of a row of knobs holds {value:?}"))
+            TableError(format!("column {name} of a row of parameters holds {value:?}"))
         };
         let text = |column: usize| row.get(column).cloned().ok_or_else(|| wrong(column));
         let number = |column: usize| text(column)?.parse().map_err(|_| wrong(column));
@@ -236,7 +236,7 @@ impl Knobs {
         };
         let storage = text(9)?;
         let storage = Storage::ALL.into_iter().find(|kept| kept.word() == storage);
-        Ok(Knobs {
+        Ok(Parameters {
             flow: Flow::from_word(&text(0)?).ok_or_else(|| wrong(0))?,
             geometry: text(1)?,
             cells: text(2)?.parse().map_err(|_| wrong(2))?,

@@ -1,13 +1,13 @@
 //! A run of the sweep, as a row of its table.
 
-use super::knobs::{COLUMNS, Knobs};
+use super::parameters::{COLUMNS, Parameters};
 use crate::table::{Table, TableError};
 
 /// What a run gave.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// How it was computed.
-    pub knobs: Knobs,
+    pub parameters: Parameters,
     /// Exact drag over Stokes' drag; 1 between plates.
     pub drag: f64,
     /// Relative error; `None` for a run that broke or did not become steady.
@@ -26,7 +26,7 @@ pub struct Row {
     pub machine: String,
 }
 
-/// Names of the columns after the knobs.
+/// Names of the columns after the parameters.
 const RESULTS: [&str; 10] = [
     "cells_per_diameter",
     "drag",
@@ -53,8 +53,8 @@ impl Row {
 
     /// The row as a line of a file.
     pub fn to_line(&self) -> String {
-        let mut fields = self.knobs.row();
-        let diameter = self.knobs.cells_per_diameter();
+        let mut fields = self.parameters.row();
+        let diameter = self.parameters.cells_per_diameter();
         fields.extend([
             diameter.map_or_else(String::new, |d| format!("{d:.4}")),
             format!("{}", self.drag),
@@ -85,7 +85,7 @@ impl Row {
             let number = |i: usize| result(i).parse().map_err(|_| wrong(RESULTS[i], result(i)));
             let whole = |i: usize| result(i).parse().map_err(|_| wrong(RESULTS[i], result(i)));
             Ok(Row {
-                knobs: Knobs::from_row(&fields[..COLUMNS.len()])?,
+                parameters: Parameters::from_row(&fields[..COLUMNS.len()])?,
                 drag: number(1)?,
                 error: if result(2).is_empty() { None } else { Some(number(2)?) },
                 end: result(3).to_owned(),

@@ -1,6 +1,6 @@
 //! What stands behind a prediction, in words.
 
-use super::evidence::{GrainPoint, LEAST_TAU, SolidKnob, committed_sweep, grain_points};
+use super::evidence::{GrainPoint, LEAST_TAU, SolidMethod, committed_sweep, grain_points};
 use super::evidence_low::low_points;
 use super::model::{LEAST_ERROR, Models};
 use super::model_eps::EpsModel;
@@ -14,7 +14,7 @@ const NEAREST: usize = 3;
 /// Evidence for an error with grains.
 pub fn of_grains(
     models: &Models,
-    (collision, solid): (Preset, SolidKnob),
+    (collision, solid): (Preset, SolidMethod),
     cells: f64,
     tau: f64,
     drag: f64,
@@ -47,7 +47,7 @@ pub fn of_grains(
         ),
     ];
     let is_low = tau < LEAST_TAU && collision == Preset::DHumieres;
-    if let Some(low) = models.low.as_ref().filter(|_| is_low && solid == SolidKnob::Usual) {
+    if let Some(low) = models.low.as_ref().filter(|_| is_low && solid == SolidMethod::Usual) {
         let p = &low.fit.parameters;
         let [_, [low_tau, high_tau], [light, heavy]] = low.ranges;
         lines.push(format!(

@@ -1,8 +1,8 @@
 //! The configurations that were held back from the fits: what the models predict, and what was measured.
 
 use super::evidence::{grain_point, wall_point};
-use super::knobs::Knobs;
 use super::model::{LEAST_ERROR, Models};
+use super::parameters::Parameters;
 use super::row::Row;
 use crate::table::{Table, TableError};
 
@@ -54,9 +54,10 @@ pub fn committed_results() -> Result<Vec<Row>, TableError> {
 /// Each of these runs beside its prediction; runs without an error or without a model are left out.
 pub fn trials(models: &Models, results: &[Row]) -> Result<Vec<Trial>, TableError> {
     let list = Table::parse("golden/tradeoff/held_back.csv", LIST)?;
-    let list: Vec<Knobs> =
-        list.rows.iter().map(|row| Knobs::from_row(row)).collect::<Result<_, _>>()?;
-    let widened = |row: &Row| list.iter().take(FIRST).any(|knobs| *knobs == row.knobs);
+    let list: Vec<Parameters> =
+        list.rows.iter().map(|row| Parameters::from_row(row)).collect::<Result<_, _>>()?;
+    let widened =
+        |row: &Row| list.iter().take(FIRST).any(|parameters| *parameters == row.parameters);
     Ok(results
         .iter()
         .filter_map(|row| {
@@ -68,7 +69,7 @@ pub fn trials(models: &Models, results: &[Row]) -> Result<Vec<Trial>, TableError
 
 /// What is predicted, the band, and what was measured.
 fn predicted(models: &Models, row: &Row) -> Option<(f64, [f64; 2], f64)> {
-    let collision = row.knobs.collision;
+    let collision = row.parameters.collision;
     if let Some(point) = wall_point(row) {
         let model = models.of_walls(collision)?;
         let error = model.error(point.cells, point.tau, point.velocity);

@@ -4,7 +4,7 @@ use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
 use psmrt::estimate::warnings;
 use psmrt::plan::facts::{Facts, Limit};
-use psmrt::plan::options::{Speed, Way, cheapest, ways};
+use psmrt::plan::options::{PlanOption, Speed, cheapest, options};
 use psmrt::plan::write::text;
 use psmrt::scene::Scene;
 use psmrt::tradeoff::model::Models;
@@ -35,21 +35,21 @@ fn load(scene: &str) -> Scene {
     Scene::load(Path::new(scene), &[]).unwrap()
 }
 
-fn all_ways(scene: &str) -> (Facts, Vec<Way>) {
+fn all_ways(scene: &str) -> (Facts, Vec<PlanOption>) {
     let facts = Facts::of(&load(scene)).unwrap().unwrap();
-    let ways = ways(&facts, models(), &speeds());
-    (facts, ways)
+    let options = options(&facts, models(), &speeds());
+    (facts, options)
 }
 
 #[test]
 fn smaller_errors_are_never_cheaper_and_every_plan_keeps_its_word() {
     for scene in SCENES {
-        let (facts, ways) = all_ways(scene);
+        let (facts, options) = all_ways(scene);
         let mut last: Option<f64> = None;
         let mut planned = 0;
         for percent in [80, 40, 30, 20, 15, 10, 8, 6, 5, 4, 3, 2, 1] {
             let wanted = f64::from(percent) / 100.0;
-            let Some(best) = cheapest(&ways, wanted) else { continue };
+            let Some(best) = cheapest(&options, wanted) else { continue };
             planned += 1;
             assert!(best.band[0] <= best.error && best.error <= best.band[1], "{best:?}");
             assert!(best.band[1] <= wanted, "{scene}: {best:?} for {wanted}");
@@ -81,17 +81,17 @@ fn no_plan_lies_beyond_what_the_maps_of_stability_found() {
             let force = format!("body_force.acceleration=[{:e}, 0.0, 0.0]", times * si_force);
             let hard = Scene::load(Path::new(&scene), &[changes, &[force]].concat()).unwrap();
             let facts = Facts::of(&hard).unwrap().unwrap();
-            let ways = ways(&facts, models(), &speeds()[..1]);
+            let options = options(&facts, models(), &speeds()[..1]);
             // Some of all that are coarse, where the flow is fastest: it has 1/dx cells per step.
-            for way in ways.iter().filter(|way| way.resolution < 16.0).step_by(7) {
-                let planned = text(&hard, Path::new(""), way, "").unwrap();
+            for option in options.iter().filter(|option| option.resolution < 16.0).step_by(7) {
+                let planned = text(&hard, Path::new(""), option, "").unwrap();
                 let planned =
                     Scene::from_bytes("planned", planned.into_bytes(), Path::new(""), &[]).unwrap();
                 let all = warnings(&planned);
                 let beyond = all.iter().find(|one| one.reason.contains("golden/stability"));
-                assert_eq!(beyond, None, "{scene}, {times} times the force: {way:?}");
+                assert_eq!(beyond, None, "{scene}, {times} times the force: {option:?}");
             }
-            counts.push(ways.len());
+            counts.push(options.len());
         }
         println!("{scene}: {counts:?}");
         // Fewer and fewer are left: the limits bind.
@@ -134,7 +134,7 @@ fn no_plan_has_a_grain_lighter_than_those_that_stayed_alive() {
         let scene = Scene::load(Path::new("golden/stokes_settling/scene.toml"), &changes).unwrap();
         let facts = Facts::of(&scene).unwrap().unwrap();
         let mut found: Vec<f64> =
-            ways(&facts, models(), &speeds()[..1]).iter().map(|way| way.tau).collect();
+            options(&facts, models(), &speeds()[..1]).iter().map(|option| option.tau).collect();
         found.sort_by(f64::total_cmp);
         found.dedup();
         assert_eq!(found, taus, "relaxation times planned for {density} kg/m3, {inside}");
@@ -144,10 +144,10 @@ fn no_plan_has_a_grain_lighter_than_those_that_stayed_alive() {
 #[test]
 fn planned_scene_is_the_same_in_si_units() {
     let scene = load("golden/stokes_settling/scene.toml");
-    let (_, ways) = all_ways("golden/stokes_settling/scene.toml");
+    let (_, options) = all_ways("golden/stokes_settling/scene.toml");
     let folder = Path::new("golden/stokes_settling");
     for wanted in [0.3, 0.1, 0.04] {
-        let best = cheapest(&ways, wanted).unwrap();
+        let best = cheapest(&options, wanted).unwrap();
         let written = text(&scene, folder, best, "a comment").unwrap();
         assert!(written.starts_with("# a comment\n"), "{written}");
         let again = Scene::from_bytes("planned", written.into_bytes(), folder, &[]).unwrap();
@@ -185,11 +185,13 @@ fn planned_scene_is_the_same_in_si_units() {
 fn planned_grain_settles_as_predicted() {
     let mut budget = Budget::oracle(14_000_000);
     // 4 x 4 x 16 of 8 cells a diameter: a grid of any number of cells per diameter fills it.
-    let (_, ways) = all_ways(SETTLING);
+    let (_, options) = all_ways(SETTLING);
     let speeds = speeds();
-    let oracle = |way: &&Way| way.engine == speeds[0].engine && way.collision == Preset::DHumieres;
-    let ways: Vec<Way> = ways.iter().filter(oracle).cloned().collect();
-    let best = cheapest(&ways, 0.2).unwrap();
+    let oracle = |option: &&PlanOption| {
+        option.engine == speeds[0].engine && option.collision == Preset::DHumieres
+    };
+    let options: Vec<PlanOption> = options.iter().filter(oracle).cloned().collect();
+    let best = cheapest(&options, 0.2).unwrap();
     println!("{best:?}");
     let scene = load(SETTLING);
     let planned = text(&scene, Path::new("golden/tradeoff"), best, "").unwrap();

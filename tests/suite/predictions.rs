@@ -10,11 +10,11 @@ use psmrt::estimate::speed::{Try, seconds_per_step};
 use psmrt::estimate::{numbers, warnings};
 use psmrt::plan::duct::Duct;
 use psmrt::plan::facts::{Facts, Limit};
-use psmrt::plan::options::{Speed, as_it_is, cheapest, ways};
+use psmrt::plan::options::{Speed, as_it_is, cheapest, options};
 use psmrt::plan::write::text;
 use psmrt::scene::Scene;
 use psmrt::table::Table;
-use psmrt::tradeoff::evidence::{SolidKnob, committed_sweep};
+use psmrt::tradeoff::evidence::{SolidMethod, committed_sweep};
 use psmrt::tradeoff::evidence_low::low_points;
 use psmrt::tradeoff::model::Models;
 use psmrt_reference::collision::{Collision, Preset};
@@ -82,8 +82,9 @@ fn planned_ducts_err_as_promised() {
         let changes = [format!("domain.size=[62.5e-6, 1e-3, {:e}]", ratio * 1e-3)];
         let duct = Scene::load(Path::new("golden/duct/scene.toml"), &changes).unwrap();
         let facts = Facts::of(&duct).unwrap().unwrap();
-        let all = ways(&facts, models(), &[oracle()]);
-        let all: Vec<_> = all.into_iter().filter(|way| way.collision == Preset::Trt).collect();
+        let all = options(&facts, models(), &[oracle()]);
+        let all: Vec<_> =
+            all.into_iter().filter(|option| option.collision == Preset::Trt).collect();
         let best = cheapest(&all, wanted).unwrap();
         let planned = text(&duct, Path::new(""), best, "").unwrap();
         let planned =
@@ -249,7 +250,7 @@ fn beds_of_the_seepage_study_lie_within_their_bands() {
         let row = own.with(&[("cells_per_diameter", "8.0000"), ("tau", tau)]).unwrap();
         let row = row.with(&[("engine", "reference")]).unwrap();
         let error = row.number("permeability_d2").unwrap() / exact - 1.0;
-        let method = (Preset::DHumieres, SolidKnob::Usual);
+        let method = (Preset::DHumieres, SolidMethod::Usual);
         let found = models().with_grains(method, 8.0, tau.parse().unwrap(), drag).unwrap();
         let [low, high] = found.band;
         assert!(
@@ -264,7 +265,7 @@ fn beds_of_the_seepage_study_lie_within_their_bands() {
 fn near_tau_one_half_the_second_error_halves_what_is_left() {
     let points = low_points(&committed_sweep().unwrap()).unwrap();
     assert!(points.len() > 40, "only {} runs", points.len());
-    let above = models().of_grains(Preset::DHumieres, SolidKnob::Usual).unwrap();
+    let above = models().of_grains(Preset::DHumieres, SolidMethod::Usual).unwrap();
     let low = models().low.as_ref().unwrap();
     let (mut with, mut without, mut inside) = (0.0, 0.0, 0);
     for point in &points {
@@ -352,11 +353,11 @@ fn check_and_plan_say_the_same_of_every_golden_scene() {
         };
         let collision = Preset::of(&scene.setup.collision).unwrap();
         match as_it_is(&facts, models(), collision, &oracle()) {
-            Ok(way) => {
+            Ok(option) => {
                 let said = said.unwrap_or_else(|| panic!("{name}: check says nothing")).value;
-                let off = (said.abs() / 100.0 - way.error).abs();
-                assert!(off < 1e-12, "{name}: check says {said} %, plan {}", way.error);
-                assert_eq!(warned, way.error > 0.1, "{name}: {said} %");
+                let off = (said.abs() / 100.0 - option.error).abs();
+                assert!(off < 1e-12, "{name}: check says {said} %, plan {}", option.error);
+                assert_eq!(warned, option.error > 0.1, "{name}: {said} %");
                 compared += 1;
             }
             Err(outside) => {

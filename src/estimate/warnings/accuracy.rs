@@ -4,8 +4,8 @@
 use super::warning;
 use crate::estimate::Warning;
 use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::{Speed, Way, as_it_is, most_accurate, ways, why_none};
-use crate::plan::predict::{Knobs, Outside, Predicted, percent, predict};
+use crate::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
+use crate::plan::predict::{Outside, Parameters, Predicted, percent, predict};
 use crate::scene::{EngineKind, Scene};
 use crate::tradeoff::model::Models;
 use psmrt_reference::collision::Preset;
@@ -31,14 +31,14 @@ pub(crate) fn outlook(scene: &Scene) -> Option<Outlook> {
     let models = Models::committed().ok()?;
     let collision = Preset::of(&scene.setup.collision)?;
     let kernel = scene.engine == EngineKind::Wgpu;
-    let knobs = Knobs {
+    let parameters = Parameters {
         resolution: facts.limit.cells(),
         tau: facts.tau,
         collision,
         single: kernel,
         velocity: facts.si_velocity.map(|velocity| velocity / scene.units.si_velocity()),
     };
-    let found = predict(&facts, models, &knobs);
+    let found = predict(&facts, models, &parameters);
     Some(Outlook { facts, models, collision, kernel, found })
 }
 
@@ -120,10 +120,12 @@ fn remedy(outlook: &Outlook) -> String {
     let Outlook { facts, models, collision, kernel, .. } = outlook;
     let engine = if *kernel { "wgpu" } else { "reference" };
     let speed = Speed { engine: engine.to_owned(), mrt: 1.0, srt: 1.0 };
-    let all = ways(facts, models, std::slice::from_ref(&speed));
-    let is_own = |way: &Way| way.collision == *collision && way.si_dx <= facts.si_dx * (1.0 + 1e-9);
-    let own: Vec<Way> = all.into_iter().filter(is_own).collect();
-    let good = own.iter().filter(|way| way.error <= TOO_LARGE && way.band[1] <= AT_MOST);
+    let all = options(facts, models, std::slice::from_ref(&speed));
+    let is_own = |option: &PlanOption| {
+        option.collision == *collision && option.si_dx <= facts.si_dx * (1.0 + 1e-9)
+    };
+    let own: Vec<PlanOption> = all.into_iter().filter(is_own).collect();
+    let good = own.iter().filter(|option| option.error <= TOO_LARGE && option.band[1] <= AT_MOST);
     let good = good.min_by(|a, b| a.seconds.total_cmp(&b.seconds));
     let Some(best) = good.or(most_accurate(&own, f64::INFINITY)) else {
         return why_none(facts, models);

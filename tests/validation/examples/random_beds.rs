@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
-use psmrt::tradeoff::knobs::{Flow, Knobs};
+use psmrt::tradeoff::parameters::{Flow, Parameters};
 use psmrt_validation::tradeoff::measure::Runner;
 
 const FILE: &str = "golden/tradeoff/random_drag.csv";
@@ -32,9 +32,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut runs = Vec::new();
         for cells in GRIDS {
             for tau in TAUS {
-                let knobs = Knobs::new(Flow::Random, fraction, cells, tau, Preset::DHumieres);
-                let row = runner.measure(&knobs)?;
-                let d = knobs.cells_per_diameter().ok_or("spheres have a diameter")?;
+                let parameters =
+                    Parameters::new(Flow::Random, fraction, cells, tau, Preset::DHumieres);
+                let row = runner.measure(&parameters)?;
+                let d = parameters.cells_per_diameter().ok_or("spheres have a diameter")?;
                 // Under a given force U goes with 1/K; the error is that against the drag of the file.
                 let velocity = (1.0 + row.error.ok_or("it did not become steady")?) / row.drag;
                 println!(

@@ -20,8 +20,8 @@ use psmrt::kernel::Gpu;
 use psmrt::output::atomic;
 use psmrt::table::Table;
 use psmrt::tradeoff::evidence::{grain_points, wall_points};
-use psmrt::tradeoff::knobs::{Flow, Knobs};
 use psmrt::tradeoff::model::Models;
+use psmrt::tradeoff::parameters::{Flow, Parameters};
 use psmrt::tradeoff::row::Row;
 use psmrt::tradeoff::trial::trials;
 
@@ -64,14 +64,15 @@ pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), Failure> {
          # Stokes'. seconds: of one run on a machine that may be shared; compare cell_updates.\n"
     );
     let mut record = Record::open(&request.out.join(file), &header)?;
-    let todo: Vec<_> = wanted.into_iter().filter(|knobs| !record.holds(knobs)).collect();
-    let (can, cannot): (Vec<_>, Vec<_>) = todo.into_iter().partition(|knobs| runner.can(knobs));
+    let todo: Vec<_> = wanted.into_iter().filter(|parameters| !record.holds(parameters)).collect();
+    let (can, cannot): (Vec<_>, Vec<_>) =
+        todo.into_iter().partition(|parameters| runner.can(parameters));
     if !cannot.is_empty() {
         tell(&format!("{} runs need an adapter and are left out", cannot.len()));
     }
     let all = can.len();
-    for (number, knobs) in can.into_iter().enumerate() {
-        let row = runner.measure(&knobs)?;
+    for (number, parameters) in can.into_iter().enumerate() {
+        let row = runner.measure(&parameters)?;
         if !json {
             say(&format!("{}/{all} {}", number + 1, words(&row)));
         }
@@ -121,7 +122,7 @@ fn summarise(
         &tables::fronts(rows, &costs),
     )?;
     let effects = effects::to_table(&effects::effects(rows));
-    save("effects.csv", "What one knob alone does to the error", &effects)?;
+    save("effects.csv", "What one parameter alone does to the error", &effects)?;
     let results = file("held_back_results.csv");
     if results.exists() {
         let trials = trials(&models, &Row::of_table(&Table::read(&results)?)?)?;
@@ -149,16 +150,20 @@ fn words(row: &Row) -> String {
         row.error.map_or_else(|| row.end.clone(), |error| format!("{:+.3} %", 100.0 * error));
     format!(
         "{}: {error}, {:.2e} cell updates, {:.1} s",
-        row.knobs.row().join(" "),
+        row.parameters.row().join(" "),
         row.cell_updates() as f64,
         row.seconds
     )
 }
 
-fn wanted(request: &TradeoffRequest) -> Result<Vec<Knobs>, Failure> {
+fn wanted(request: &TradeoffRequest) -> Result<Vec<Parameters>, Failure> {
     if request.held_back {
         let table = Table::read(&request.golden.join("tradeoff/held_back.csv"))?;
-        return Ok(table.rows.iter().map(|row| Knobs::from_row(row)).collect::<Result<_, _>>()?);
+        return Ok(table
+            .rows
+            .iter()
+            .map(|row| Parameters::from_row(row))
+            .collect::<Result<_, _>>()?);
     }
     let flows = match &request.case {
         None => Flow::ALL.to_vec(),

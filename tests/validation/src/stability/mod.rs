@@ -2,7 +2,7 @@
 //! ratio and contacts, on both engines.
 //!
 //! A [`Flow`] is run along [`Line`]s: one engine, one collision, one weight, one relaxation time, and a
-//! knob (usually the lattice velocity) that takes several values. Each run ends as an [`Outcome`]: a run
+//! parameter (usually the lattice velocity) that takes several values. Each run ends as an [`Outcome`]: a run
 //! that is stable but wrong is told from one that is right. What "right" is held to stands with each flow:
 //! an exact solution, an identity or a bound. Rows go to a file as they come ([`record`]), so that a map
 //! that was cut off goes on where it was.
@@ -57,7 +57,7 @@ pub struct Flow {
     /// What it is and what it is held to, for the head of its file.
     pub about: &'static [&'static str],
     /// What varies along a line.
-    pub knob: &'static str,
+    pub parameter: &'static str,
     /// Its values, from the harmless to the harmful.
     pub values: &'static [f64],
     /// Whether all values are run, or only those that find the largest that survives and the largest

@@ -49,7 +49,7 @@ pub(super) const FLOW: Flow = Flow {
         "start, the momentum of fluid and grain stays, and after five times L^2/(4 pi^2 nu) + m_r/(6 pi nu a), m_r the reduced",
         "mass of grain and fluid, the grain moves at momentum over mass. error: the worst of these over that velocity.",
     ],
-    knob: "density of the grain over that of the fluid",
+    parameter: "density of the grain over that of the fluid",
     values: &[10.0, 5.0, 2.65, 1.5, 1.1, 1.01, 1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.05],
     search: Search::All,
     also: |_| None,

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::{Flow, Found, LabError, Line, Outcome};
 use psmrt::table::Table;
 
-/// The columns; the knob's name stands in a comment.
+/// The columns; the parameter's name stands in a comment.
 const COLUMNS: [&str; 11] = [
     "engine",
     "collision",
@@ -98,7 +98,7 @@ fn head(flow: &Flow) -> String {
     for line in flow.about {
         head += &format!("# {line}\n");
     }
-    head += &format!("# value: {}.", flow.knob);
+    head += &format!("# value: {}.", flow.parameter);
     if flow.search == super::Search::Frontiers {
         head += " Only the values that find the last that survives and the last that is right, by halving, are run.";
     }

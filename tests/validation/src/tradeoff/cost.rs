@@ -12,7 +12,7 @@ use psmrt::engine::{self, Engine};
 use psmrt::kernel::Gpu;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
-use psmrt::tradeoff::knobs::{Flow, Knobs};
+use psmrt::tradeoff::parameters::{Flow, Parameters};
 
 /// Rounds, and how long one scene runs in each: short enough to fall between what else the machine does.
 const ROUNDS: usize = 80;
@@ -94,14 +94,17 @@ pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError
     Ok(table)
 }
 
-/// Seconds per cell update of some knobs, by a table of [`measure`]. Many relaxation times cost the same
+/// Seconds per cell update of some parameters, by a table of [`measure`]. Many relaxation times cost the same
 /// with any rates. Errors if the table has no such row.
-pub fn seconds_per_update(costs: &Table, knobs: &Knobs) -> Result<f64, CaseError> {
-    let collision = match knobs.collision {
+pub fn seconds_per_update(costs: &Table, parameters: &Parameters) -> Result<f64, CaseError> {
+    let collision = match parameters.collision {
         Preset::Srt => Preset::Srt,
         Preset::DHumieres | Preset::Trt => Preset::DHumieres,
     };
-    let wanted =
-        [("engine", &*knobs.engine), ("collision", collision.word()), ("scene", kind(knobs.flow))];
+    let wanted = [
+        ("engine", &*parameters.engine),
+        ("collision", collision.word()),
+        ("scene", kind(parameters.flow)),
+    ];
     Ok(1e-9 * costs.with(&wanted)?.number("ns_per_cell_update")?)
 }

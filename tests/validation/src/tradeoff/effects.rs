@@ -1,14 +1,14 @@
-//! What one knob alone does: runs beside the run that differs in nothing else and has the default.
+//! What one parameter alone does: runs beside the run that differs in nothing else and has the default.
 
 use psmrt::table::Table;
-use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
+use psmrt::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt::tradeoff::row::Row;
 use psmrt_reference::collision::Preset;
 
-/// A knob, turned.
+/// A parameter, turned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
-    /// Which knob, and to what.
+    /// Which parameter, and to what.
     pub what: String,
     /// The flow.
     pub flow: Flow,
@@ -32,16 +32,16 @@ impl Effect {
     }
 }
 
-/// The effects of all knobs in a sweep, flow by flow.
+/// The effects of all parameters in a sweep, flow by flow.
 pub fn effects(rows: &[Row]) -> Vec<Effect> {
     let mut effects: Vec<Effect> = Vec::new();
     for row in rows {
-        let Some((what, default)) = turned(&row.knobs) else { continue };
-        let partner = rows.iter().find(|other| other.knobs == default);
+        let Some((what, default)) = turned(&row.parameters) else { continue };
+        let partner = rows.iter().find(|other| other.parameters == default);
         let (Some(error), Some(usual)) = (row.error, partner.and_then(|other| other.error)) else {
             continue;
         };
-        let flow = row.knobs.flow;
+        let flow = row.parameters.flow;
         match effects.iter_mut().find(|effect| effect.flow == flow && effect.what == what) {
             Some(effect) => effect.pairs.push([error, usual]),
             None => effects.push(Effect { what, flow, pairs: vec![[error, usual]] }),
@@ -50,30 +50,30 @@ pub fn effects(rows: &[Row]) -> Vec<Effect> {
     effects
 }
 
-/// The one knob that is not at its default, and the knobs with it at its default; the storage of the
+/// The one parameter that is not at its default, and the parameters with it at its default; the storage of the
 /// kernel is its own default. `None` if none is turned.
-fn turned(knobs: &Knobs) -> Option<(String, Knobs)> {
-    let mut default = knobs.clone();
-    let what = if knobs.engine == "wgpu" {
+fn turned(parameters: &Parameters) -> Option<(String, Parameters)> {
+    let mut default = parameters.clone();
+    let what = if parameters.engine == "wgpu" {
         default.engine = "reference".to_owned();
         default.storage = Storage::F64;
         "engine wgpu (f32 shifted)".to_owned()
-    } else if knobs.storage != Storage::F64 {
+    } else if parameters.storage != Storage::F64 {
         default.storage = Storage::F64;
-        let speed = if knobs.lattice_velocity < 5e-4 { "u < 5e-4" } else { "u >= 1e-3" };
-        format!("storage {} ({speed})", knobs.storage.word())
-    } else if knobs.weight != "NT" {
+        let speed = if parameters.lattice_velocity < 5e-4 { "u < 5e-4" } else { "u >= 1e-3" };
+        format!("storage {} ({speed})", parameters.storage.word())
+    } else if parameters.weight != "NT" {
         default.weight = "NT".to_owned();
         "weight B = eps".to_owned()
-    } else if knobs.operator != "bounce_back" {
+    } else if parameters.operator != "bounce_back" {
         default.operator = "bounce_back".to_owned();
         "operator superposition".to_owned()
-    } else if knobs.samples != 0 {
+    } else if parameters.samples != 0 {
         default.samples = 0;
-        format!("coverage sampled {0} x {0} x {0}", knobs.samples)
-    } else if knobs.collision != Preset::DHumieres {
+        format!("coverage sampled {0} x {0} x {0}", parameters.samples)
+    } else if parameters.collision != Preset::DHumieres {
         default.collision = Preset::DHumieres;
-        format!("collision {}", knobs.collision.title())
+        format!("collision {}", parameters.collision.title())
     } else {
         return None;
     };

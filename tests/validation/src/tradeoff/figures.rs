@@ -4,10 +4,10 @@ use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::cost::seconds_per_update;
-use super::front::front;
+use super::pareto::front;
 use crate::cases::CaseError;
 use psmrt::table::Table;
-use psmrt::tradeoff::knobs::{Flow, Storage};
+use psmrt::tradeoff::parameters::{Flow, Storage};
 use psmrt::tradeoff::row::Row;
 use psmrt::tradeoff::trial::{Trial, score};
 
@@ -29,8 +29,8 @@ pub struct Placed<'a> {
 pub fn problems(rows: &[Row]) -> Vec<(Flow, String)> {
     let mut found = Vec::new();
     for flow in Flow::ALL {
-        for row in rows.iter().filter(|row| row.knobs.flow == flow) {
-            let problem = (flow, row.knobs.geometry.clone());
+        for row in rows.iter().filter(|row| row.parameters.flow == flow) {
+            let problem = (flow, row.parameters.geometry.clone());
             if !found.contains(&problem) {
                 found.push(problem);
             }
@@ -48,10 +48,12 @@ pub fn placed<'a>(
     rows: &'a [Row],
     costs: &Table,
 ) -> Vec<Placed<'a>> {
-    let own = rows.iter().filter(|row| row.knobs.flow == *flow && row.knobs.geometry == *geometry);
-    own.filter(|row| row.knobs.reynolds() < MOST_REYNOLDS)
+    let own = rows
+        .iter()
+        .filter(|row| row.parameters.flow == *flow && row.parameters.geometry == *geometry);
+    own.filter(|row| row.parameters.reynolds() < MOST_REYNOLDS)
         .filter_map(|row| {
-            let cost = seconds_per_update(costs, &row.knobs).ok()?;
+            let cost = seconds_per_update(costs, &row.parameters).ok()?;
             let seconds = row.cell_updates() as f64 * cost;
             Some(Placed { row, seconds, error: row.error?.abs().max(FLOOR) })
         })
@@ -61,7 +63,9 @@ pub fn placed<'a>(
 /// Whether a run's models converge with the grid. The others (`B = eps`, few sample points, superposition)
 /// can come out right at one relaxation time, where two errors cancel, and are far off at the next.
 fn converges(row: &Row) -> bool {
-    row.knobs.weight == "NT" && row.knobs.operator == "bounce_back" && row.knobs.samples == 0
+    row.parameters.weight == "NT"
+        && row.parameters.operator == "bounce_back"
+        && row.parameters.samples == 0
 }
 
 /// The runs of the front among them, the cheapest first: of all, or of those whose models converge. What
@@ -69,7 +73,7 @@ fn converges(row: &Row) -> bool {
 pub fn on_front<'a, 'b>(placed: &'b [Placed<'a>], all: bool) -> Vec<&'b Placed<'a>> {
     let offered: Vec<_> = placed
         .iter()
-        .filter(|p| !p.row.knobs.is_emulated())
+        .filter(|p| !p.row.parameters.is_emulated())
         .filter(|p| all || converges(p.row))
         .collect();
     let points: Vec<_> = offered.iter().map(|p| (p.seconds, p.error)).collect();
@@ -78,15 +82,15 @@ pub fn on_front<'a, 'b>(placed: &'b [Placed<'a>], all: bool) -> Vec<&'b Placed<'
 
 /// Which series of a figure a run belongs to.
 fn series_of(row: &Row) -> &'static str {
-    let knobs = &row.knobs;
-    match (knobs.storage, &*knobs.engine) {
+    let parameters = &row.parameters;
+    match (parameters.storage, &*parameters.engine) {
         (Storage::F32, _) => "f32 unshifted (storage only)",
         (Storage::F16Shifted, _) => "f16 shifted (storage only)",
         (_, "wgpu") => "kernel, f32 shifted",
-        _ if knobs.weight == "eps" => "weight B = eps",
-        _ if knobs.operator == "superposition" => "superposition",
-        _ if knobs.samples > 0 => "sampled coverage",
-        _ => match knobs.collision {
+        _ if parameters.weight == "eps" => "weight B = eps",
+        _ if parameters.operator == "superposition" => "superposition",
+        _ if parameters.samples > 0 => "sampled coverage",
+        _ => match parameters.collision {
             Preset::Srt => "SRT",
             Preset::DHumieres => "MRT d'Humieres (default)",
             Preset::Trt => "TRT 3/16",
@@ -153,15 +157,15 @@ pub fn error_against_time(problem: &(Flow, String), rows: &[Row], costs: &Table)
     let points = |all| on_front(&placed, all).iter().map(|p| (p.seconds, p.error)).collect();
     let (best, of_all): (Vec<_>, Vec<_>) = (points(false), points(true));
     if best.len() > 1 {
-        let label = "front of models that converge";
+        let label = "Pareto front of models that converge";
         figure = figure.with(Series::dashed(label, steps(&best)).with_colour(0));
     }
     if of_all.len() > 1 && of_all != best {
-        let label = "front of all runs";
+        let label = "Pareto front of all runs";
         figure = figure.with(Series::new(label, Style::Reference, steps(&of_all)));
     }
     let figure =
-        figure.note("a run on a front is beaten by none that is faster; sweep.csv has all runs");
+        figure.note("on a Pareto front no run is both faster and more accurate than another; sweep.csv has all runs");
     let floor = placed.iter().any(|p| p.error == FLOOR);
     Some(match problem.0 {
         Flow::Poiseuille if floor => figure.note("errors below 1e-8 are drawn at 1e-8"),
@@ -182,7 +186,7 @@ fn steps(best: &[(f64, f64)]) -> Vec<(f64, f64)> {
 pub fn held_back(trials: &[Trial]) -> Option<Figure> {
     // Errors with B = epsilon have either sign: no place for them on logarithms.
     let shown = |trial: &&Trial| {
-        trial.measured.abs() > 0.0 && trial.predicted > 0.0 && trial.row.knobs.weight == "NT"
+        trial.measured.abs() > 0.0 && trial.predicted > 0.0 && trial.row.parameters.weight == "NT"
     };
     let shown: Vec<&Trial> = trials.iter().filter(shown).collect();
     let values = || shown.iter().flat_map(|trial| [trial.predicted, trial.measured.abs()]);
@@ -197,7 +201,7 @@ pub fn held_back(trials: &[Trial]) -> Option<Figure> {
         Axis::log("measured error").range(low / 1.5, high * 1.5),
     );
     for (colour, collision) in Preset::ALL.into_iter().enumerate() {
-        let own = shown.iter().filter(|trial| trial.row.knobs.collision == collision);
+        let own = shown.iter().filter(|trial| trial.row.parameters.collision == collision);
         let points: Vec<_> = own.map(|t| (t.predicted, t.measured.abs())).collect();
         if !points.is_empty() {
             figure = figure.with(Series::points(collision.title(), points).with_colour(colour));

@@ -15,7 +15,7 @@ use psmrt::kernel::Gpu;
 use psmrt::output::records::profile_rows;
 use psmrt::run::{End, RunError};
 use psmrt::scene::check::records::middle;
-use psmrt::tradeoff::knobs::{Flow, Knobs};
+use psmrt::tradeoff::parameters::{Flow, Parameters};
 use psmrt::tradeoff::row::Row;
 use std::sync::Arc;
 
@@ -45,15 +45,15 @@ impl Runner {
         Ok(Runner { oracle, kernel, literature, machine: super::machine_words() })
     }
 
-    /// Whether it can run these knobs here.
-    pub fn can(&self, knobs: &Knobs) -> bool {
-        knobs.engine == "reference" || self.kernel.is_some()
+    /// Whether it can run these parameters here.
+    pub fn can(&self, parameters: &Parameters) -> bool {
+        parameters.engine == "reference" || self.kernel.is_some()
     }
 
     /// Makes one run. A run that breaks or does not become steady is a row too, without an error.
-    pub fn measure(&mut self, knobs: &Knobs) -> Result<Row, CaseError> {
-        let Setting { scene, changes, drag } = Setting::new(knobs, &self.literature)?;
-        let on_kernel = knobs.engine == "wgpu";
+    pub fn measure(&mut self, parameters: &Parameters) -> Result<Row, CaseError> {
+        let Setting { scene, changes, drag } = Setting::new(parameters, &self.literature)?;
+        let on_kernel = parameters.engine == "wgpu";
         let bench = match &mut self.kernel {
             Some(kernel) if on_kernel => kernel,
             None if on_kernel => {
@@ -61,11 +61,11 @@ impl Runner {
             }
             _ => &mut self.oracle,
         };
-        let emulated = knobs.is_emulated();
+        let emulated = parameters.is_emulated();
         let start = Instant::now();
         let ended = if emulated {
             let scene = bench.load(&scene, &changes)?;
-            let engine = RoundedEngine::new(&scene, knobs.storage)
+            let engine = RoundedEngine::new(&scene, parameters.storage)
                 .map_err(|error| CaseError::table(error.to_string()))?;
             let engine: Box<dyn Engine> = Box::new(engine);
             bench.run_on(scene, engine)
@@ -74,7 +74,7 @@ impl Runner {
         };
         let seconds = start.elapsed().as_secs_f64();
         let mut row = Row {
-            knobs: knobs.clone(),
+            parameters: parameters.clone(),
             drag,
             error: None,
             end: String::new(),
@@ -95,14 +95,14 @@ impl Runner {
             Err(error) => return Err(error),
         };
         // A grain in a shaft is stopped after a time that its flow needs; all else must be steady.
-        let steady = matches!(end, End::Steady { .. }) || knobs.flow == Flow::Settling;
+        let steady = matches!(end, End::Steady { .. }) || parameters.flow == Flow::Settling;
         row.end = if steady { "steady" } else { "limit" }.to_owned();
         row.cells = finished.scene.setup.domain.cell_count() as u64;
         row.steps = finished.engine.steps();
-        let bytes = BYTES.iter().find(|(engine, _)| *engine == knobs.engine);
+        let bytes = BYTES.iter().find(|(engine, _)| *engine == parameters.engine);
         row.mebibytes = row.cells as f64 * bytes.map_or(f64::NAN, |(_, b)| *b) / f64::from(1 << 20);
         if steady || emulated {
-            row.error = Some(error(knobs, drag, &finished)?).filter(|error| error.is_finite());
+            row.error = Some(error(parameters, drag, &finished)?).filter(|error| error.is_finite());
         }
         Ok(row)
     }
@@ -111,10 +111,10 @@ impl Runner {
 /// The error: between plates that of the profile (relative L2), in arrays and ducts that of the
 /// superficial velocity under a given force (which is that of the permeability), of a grain that of its
 /// settling velocity; relative, signed but between plates.
-fn error(knobs: &Knobs, drag: f64, run: &Finished) -> Result<f64, CaseError> {
+fn error(parameters: &Parameters, drag: f64, run: &Finished) -> Result<f64, CaseError> {
     let setup = &run.scene.setup;
-    let missing = |what: &str| CaseError::table(format!("{}: {what}", knobs.flow.word()));
-    match knobs.flow {
+    let missing = |what: &str| CaseError::table(format!("{}: {what}", parameters.flow.word()));
+    match parameters.flow {
         Flow::Poiseuille => {
             let exact = run.scene.exact.as_ref().ok_or_else(|| missing("no exact solution"))?;
             let middle = middle(&setup.domain);
@@ -125,18 +125,18 @@ fn error(knobs: &Knobs, drag: f64, run: &Finished) -> Result<f64, CaseError> {
         Flow::Settling => {
             let free = run.engine.free_grains().ok_or_else(|| missing("no free grain"))?;
             let grain = free.grains().first().ok_or_else(|| missing("no grain"))?;
-            // The knob is Stokes' velocity; walls divide it by the drag.
-            Ok(-grain.velocity.z / knobs.lattice_velocity * drag - 1.0)
+            // The parameter is Stokes' velocity; walls divide it by the drag.
+            Ok(-grain.velocity.z / parameters.lattice_velocity * drag - 1.0)
         }
         Flow::Sc | Flow::Bcc | Flow::Fcc | Flow::Seepage | Flow::SphereDrag | Flow::Random => {
-            let d = knobs.cells_per_diameter().ok_or_else(|| missing("no diameter"))?;
-            let count = knobs.flow.lattice().map_or(1, |(_, count)| count);
+            let d = parameters.cells_per_diameter().ok_or_else(|| missing("no diameter"))?;
+            let count = parameters.flow.lattice().map_or(1, |(_, count)| count);
             let force = setup.body_force.map_or(0.0, |force| force.x);
             let means = run.engine.box_means();
             let velocity = means.mass_flux.x / means.density;
             // U = G V/(n 6π ν a K)
-            let stokes = f64::from(count) * 3.0 * PI * viscosity(knobs.tau) * d;
-            let exact = force * f64::from(knobs.cells).powi(3) / (stokes * drag);
+            let stokes = f64::from(count) * 3.0 * PI * viscosity(parameters.tau) * d;
+            let exact = force * f64::from(parameters.cells).powi(3) / (stokes * drag);
             Ok(velocity / exact - 1.0)
         }
     }

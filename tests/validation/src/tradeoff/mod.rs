@@ -1,21 +1,21 @@
-//! Speed for accuracy, measured: what each knob of a scene does to the error and to the cost, on flows
+//! Speed for accuracy, measured: what each parameter of a scene does to the error and to the cost, on flows
 //! with known answers. The error models that rest on it are the product's, `psmrt::tradeoff`.
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `sweep.rs` | which settings of the knobs are run |
-//! | `setting.rs`, `measure.rs` | knobs become a scene; a run becomes a row |
+//! | `sweep.rs` | which settings of the parameters are run |
+//! | `setting.rs`, `measure.rs` | parameters become a scene; a run becomes a row |
 //! | `storage.rs` | the oracle with populations kept in fewer digits |
 //! | `record.rs` | rows in a file that grows and can be gone on with |
 //! | `front.rs` | runs that no other beats in cost and error |
-//! | `cost.rs`, `effects.rs` | what a cell update costs; what one knob alone does |
+//! | `cost.rs`, `effects.rs` | what a cell update costs; what one parameter alone does |
 //! | `figures.rs`, `tables.rs` | what is shown |
 
 pub mod cost;
 pub mod effects;
 pub mod figures;
-pub mod front;
 pub mod measure;
+pub mod pareto;
 pub mod record;
 pub mod setting;
 pub mod storage;

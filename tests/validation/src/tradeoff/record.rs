@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cases::CaseError;
 use psmrt::table::{Table, TableError};
-use psmrt::tradeoff::knobs::Knobs;
+use psmrt::tradeoff::parameters::Parameters;
 use psmrt::tradeoff::row::Row;
 
 /// A file of rows that new ones are added to.
@@ -37,9 +37,9 @@ impl Record {
         Ok(Record { path: path.to_owned(), rows: Row::of_table(&table).map_err(named)? })
     }
 
-    /// Whether a run with these knobs is there already.
-    pub fn holds(&self, knobs: &Knobs) -> bool {
-        self.rows.iter().any(|row| row.knobs == *knobs)
+    /// Whether a run with these parameters is there already.
+    pub fn holds(&self, parameters: &Parameters) -> bool {
+        self.rows.iter().any(|row| row.parameters == *parameters)
     }
 
     /// Adds a row at the end of the file.

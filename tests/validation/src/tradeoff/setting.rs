@@ -1,4 +1,4 @@
-//! Knobs become a scene of `golden/tradeoff/` with changes, and the exact answer beside it.
+//! Parameters become a scene of `golden/tradeoff/` with changes, and the exact answer beside it.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use psmrt_reference::lattice::viscosity;
 use crate::cases::CaseError;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
-use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
+use psmrt::tradeoff::parameters::{Flow, Parameters, Storage};
 
 /// Viscosity of all scenes, m2/s.
 const SI_VISCOSITY: f64 = 1e-6;
@@ -49,47 +49,48 @@ pub struct Literature {
 }
 
 impl Setting {
-    /// The scene and the truth for some knobs. Errors if the literature does not know the geometry.
-    pub fn new(knobs: &Knobs, literature: &Literature) -> Result<Self, CaseError> {
-        let (flow, drag) = match knobs.flow {
-            Flow::Poiseuille => (poiseuille(knobs), 1.0),
+    /// The scene and the truth for some parameters. Errors if the literature does not know the geometry.
+    pub fn new(parameters: &Parameters, literature: &Literature) -> Result<Self, CaseError> {
+        let (flow, drag) = match parameters.flow {
+            Flow::Poiseuille => (poiseuille(parameters), 1.0),
             Flow::Settling => {
-                let wanted = [("section", "square"), ("a_over_halfwidth", &*knobs.geometry)];
+                let wanted = [("section", "square"), ("a_over_halfwidth", &*parameters.geometry)];
                 let drag =
                     literature.shafts.with(&wanted)?.number("K1_translating_in_still_fluid")?;
-                (settling(knobs)?, drag)
+                (settling(parameters)?, drag)
             }
             Flow::SphereDrag => {
-                let own = literature.ducts.with(&[("solid_fraction", &knobs.geometry)])?;
+                let own = literature.ducts.with(&[("solid_fraction", &parameters.geometry)])?;
                 let drag = own.number("K")?;
-                (array(knobs, drag, &[])?, drag)
+                (array(parameters, drag, &[])?, drag)
             }
             Flow::Random => {
-                let wanted = [("solid_fraction", &*knobs.geometry)];
+                let wanted = [("solid_fraction", &*parameters.geometry)];
                 let drag = literature.random_drag.with(&wanted)?.number("K")?;
                 let places = literature.random.with(&wanted)?;
                 let [x, y, z] = ["x", "y", "z"].map(|axis| places.numbers(axis));
                 let (x, y, z) = (x?, y?, z?);
                 let sites: Vec<[f64; 3]> = (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect();
-                (array(knobs, drag, &sites)?, drag)
+                (array(parameters, drag, &sites)?, drag)
             }
             Flow::Sc | Flow::Bcc | Flow::Fcc | Flow::Seepage => {
-                let lattice = knobs.flow.lattice().map_or("", |(name, _)| name);
-                let wanted = [("lattice", lattice), ("solid_fraction_c", &*knobs.geometry)];
+                let lattice = parameters.flow.lattice().map_or("", |(name, _)| name);
+                let wanted = [("lattice", lattice), ("solid_fraction_c", &*parameters.geometry)];
                 let drag = literature.arrays.with(&wanted)?.number("K_computed")?;
-                (array(knobs, drag, &[])?, drag)
+                (array(parameters, drag, &[])?, drag)
             }
         };
         let (scene, mut changes) = flow;
-        changes.push(format!("time.tau={}", knobs.tau));
-        changes.extend(preset_changes(knobs.collision));
-        if knobs.flow != Flow::Poiseuille {
-            let weight = if knobs.weight == "eps" { "solid_fraction" } else { "noble_torczynski" };
+        changes.push(format!("time.tau={}", parameters.tau));
+        changes.extend(preset_changes(parameters.collision));
+        if parameters.flow != Flow::Poiseuille {
+            let weight =
+                if parameters.weight == "eps" { "solid_fraction" } else { "noble_torczynski" };
             changes.push(format!("solid.weighting=\"{weight}\""));
-            changes.push(format!("solid.operator=\"{}\"", knobs.operator));
-            if knobs.samples > 0 {
+            changes.push(format!("solid.operator=\"{}\"", parameters.operator));
+            if parameters.samples > 0 {
                 changes.push("solid.coverage=\"sampled\"".to_owned());
-                changes.push(format!("solid.samples={}", knobs.samples));
+                changes.push(format!("solid.samples={}", parameters.samples));
             }
         }
         Ok(Setting { scene: format!("tradeoff/{scene}.toml"), changes, drag })
@@ -97,16 +98,16 @@ impl Setting {
 }
 
 /// Time step for an edge of a cell, s.
-fn si_dt(knobs: &Knobs, si_dx: f64) -> f64 {
-    viscosity(knobs.tau) * si_dx * si_dx / SI_VISCOSITY
+fn si_dt(parameters: &Parameters, si_dx: f64) -> f64 {
+    viscosity(parameters.tau) * si_dx * si_dx / SI_VISCOSITY
 }
 
-fn poiseuille(knobs: &Knobs) -> (&'static str, Vec<String>) {
-    let (n, nu) = (f64::from(knobs.cells), viscosity(knobs.tau));
+fn poiseuille(parameters: &Parameters) -> (&'static str, Vec<String>) {
+    let (n, nu) = (f64::from(parameters.cells), viscosity(parameters.tau));
     let si_dx = 1e-3 / n;
     // u = G H²/(8 ν)
-    let force = 8.0 * nu * knobs.lattice_velocity / (n * n);
-    let si_force = force * si_dx / si_dt(knobs, si_dx).powi(2);
+    let force = 8.0 * nu * parameters.lattice_velocity / (n * n);
+    let si_force = force * si_dx / si_dt(parameters, si_dx).powi(2);
     // The slowest disturbance takes H²/(π² ν) steps to fall to 1/e; rows come every fifth of it.
     let rows = (0.2 * n * n / (PI * PI * nu)).ceil() + 8.0;
     let changes = vec![
@@ -115,16 +116,16 @@ fn poiseuille(knobs: &Knobs) -> (&'static str, Vec<String>) {
         format!("body_force.acceleration=[{si_force:e}, 0.0, 0.0]"),
         format!("records[0].every_steps={rows}"),
         format!("stop.steps={}", 200.0 * rows),
-        format!("stop.steady.tolerance={:e}", quiet(knobs, 1e-8)),
+        format!("stop.steady.tolerance={:e}", quiet(parameters, 1e-8)),
     ];
     ("poiseuille", changes)
 }
 
 /// What may still be to go, relative, when a run is steady; single precision has noise above 1e-6, and
 /// emulated storage never becomes steady: it runs to its limit.
-fn quiet(knobs: &Knobs, wanted: f64) -> f64 {
-    match knobs.storage {
-        _ if knobs.is_emulated() => 1e-9,
+fn quiet(parameters: &Parameters, wanted: f64) -> f64 {
+    match parameters.storage {
+        _ if parameters.is_emulated() => 1e-9,
         Storage::F64 => wanted,
         _ => wanted.max(1e-5),
     }
@@ -132,24 +133,25 @@ fn quiet(knobs: &Knobs, wanted: f64) -> f64 {
 
 /// Spheres held in a periodic box: at `places` (edges of the box), or a quarter of an array between mirrors.
 fn array(
-    knobs: &Knobs,
+    parameters: &Parameters,
     drag: f64,
     places: &[[f64; 3]],
 ) -> Result<(&'static str, Vec<String>), CaseError> {
-    let (Some((lattice, count)), Some(d)) = (knobs.flow.lattice(), knobs.cells_per_diameter())
+    let (Some((lattice, count)), Some(d)) =
+        (parameters.flow.lattice(), parameters.cells_per_diameter())
     else {
-        return Err(CaseError::table(format!("{} is no array", knobs.flow.word())));
+        return Err(CaseError::table(format!("{} is no array", parameters.flow.word())));
     };
-    let (n, nu, u) = (knobs.cells, viscosity(knobs.tau), knobs.lattice_velocity);
+    let (n, nu, u) = (parameters.cells, viscosity(parameters.tau), parameters.lattice_velocity);
     let volume = f64::from(n).powi(3);
     // G V = n 6π ν a K U
     let stokes = f64::from(count) * 3.0 * PI * nu * d;
     let force = stokes * drag * u / volume;
-    let (si_dx, si_dt) = (SI_DX, si_dt(knobs, SI_DX));
+    let (si_dx, si_dt) = (SI_DX, si_dt(parameters, SI_DX));
     // The drag stops the fluid in V/(n 6π ν a K) steps, the slowest time; rows come every half of it.
     let rows = (0.5 * volume / (stokes * drag)).ceil() + 8.0;
     // The start takes the leak for known: x = 3 (τ - 1/2) K/d² (tests/oracle/sphere_arrays.rs).
-    let start = u * (1.0 + 3.0 * (knobs.tau - 0.5) * drag / (d * d));
+    let start = u * (1.0 + 3.0 * (parameters.tau - 0.5) * drag / (d * d));
     let (scene, sites) = if places.is_empty() { sites(lattice) } else { ("random", places) };
     let across = if places.is_empty() { n / 2 } else { n };
     let mut changes = vec![
@@ -158,8 +160,8 @@ fn array(
         format!("body_force.acceleration=[{:e}, 0.0, 0.0]", force * si_dx / (si_dt * si_dt)),
         format!("initial.velocity=[{:e}, 0.0, 0.0]", start * si_dx / si_dt),
         format!("records[0].every_steps={rows}"),
-        format!("stop.steps={}", if knobs.is_emulated() { 20.0 } else { 100.0 } * rows),
-        format!("stop.steady.tolerance={:e}", quiet(knobs, 2e-5)),
+        format!("stop.steps={}", if parameters.is_emulated() { 20.0 } else { 100.0 } * rows),
+        format!("stop.steady.tolerance={:e}", quiet(parameters, 2e-5)),
     ];
     for (i, site) in sites.iter().enumerate() {
         let [x, y, z] = site.map(|share| share * f64::from(n) * si_dx);
@@ -178,19 +180,19 @@ fn sites(lattice: &str) -> (&'static str, &'static [[f64; 3]]) {
     }
 }
 
-fn settling(knobs: &Knobs) -> Result<(&'static str, Vec<String>), CaseError> {
-    let ratio: f64 = knobs.geometry.parse().unwrap_or(f64::NAN);
-    let (d, nu) = (f64::from(knobs.cells), viscosity(knobs.tau));
+fn settling(parameters: &Parameters) -> Result<(&'static str, Vec<String>), CaseError> {
+    let ratio: f64 = parameters.geometry.parse().unwrap_or(f64::NAN);
+    let (d, nu) = (f64::from(parameters.cells), viscosity(parameters.tau));
     let half = 0.5 * d / ratio;
     if (half - half.round()).abs() > 1e-9 {
         let problem = format!("a shaft of half width {half} cells is no whole number of them");
         return Err(CaseError::table(problem));
     }
     let si_dx = SI_GRAIN / d;
-    let si_velocity = knobs.lattice_velocity * si_dx / si_dt(knobs, si_dx);
+    let si_velocity = parameters.lattice_velocity * si_dx / si_dt(parameters, si_dx);
     // g = 18 ν U/(d² (ρ_s/ρ_f - 1))
     let gravity = 18.0 * SI_VISCOSITY * si_velocity / (SI_GRAIN.powi(2) * (DENSITY_RATIO - 1.0));
-    let height = SHAFT_HEIGHT * knobs.cells;
+    let height = SHAFT_HEIGHT * parameters.cells;
     // 0.3 cells above the middle, so that it does not stand on a node.
     let si_start = (0.5 * f64::from(height) + 0.3) * si_dx;
     // The slowest shear dies with 2 (π/(2 b))² ν, b the half width: a fiftieth of it is left, of which the

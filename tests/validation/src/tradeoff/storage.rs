@@ -16,7 +16,7 @@ use psmrt_reference::solver::Solver;
 
 use psmrt::engine::{BoxMeans, CellState, Engine, EngineStop};
 use psmrt::scene::Scene;
-use psmrt::tradeoff::knobs::Storage;
+use psmrt::tradeoff::parameters::Storage;
 
 /// The oracle with populations rounded after every step; fluid and held grains only.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Which runs a sweep makes: cheap ones first.
 
-use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
+use psmrt::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt_reference::collision::Preset;
 
 use Preset::{DHumieres, Srt, Trt};
@@ -10,7 +10,7 @@ const TAUS: [f64; 6] = [0.55, 0.6, 0.8, 1.0, 1.5, 2.0];
 const FEW_TAUS: [f64; 3] = [0.6, 0.8, 1.5];
 
 /// The runs for a flow; `quick` leaves a handful.
-pub fn runs(flow: Flow, quick: bool) -> Vec<Knobs> {
+pub fn runs(flow: Flow, quick: bool) -> Vec<Parameters> {
     match flow {
         Flow::Poiseuille => poiseuille(quick),
         Flow::Settling => settling(quick),
@@ -30,12 +30,12 @@ fn grid(
     cells: &[u32],
     taus: &[f64],
     collisions: &[Preset],
-) -> Vec<Knobs> {
+) -> Vec<Parameters> {
     let mut runs = Vec::new();
     for &cells in cells {
         for &tau in taus {
             for &collision in collisions {
-                runs.push(Knobs::new(flow, geometry, cells, tau, collision));
+                runs.push(Parameters::new(flow, geometry, cells, tau, collision));
             }
         }
     }
@@ -43,18 +43,18 @@ fn grid(
 }
 
 /// The same runs with a change to each.
-fn changed(runs: &[Knobs], change: impl Fn(&mut Knobs)) -> Vec<Knobs> {
+fn changed(runs: &[Parameters], change: impl Fn(&mut Parameters)) -> Vec<Parameters> {
     let mut runs = runs.to_vec();
     runs.iter_mut().for_each(change);
     runs
 }
 
-fn on_kernel(knobs: &mut Knobs) {
-    knobs.engine = "wgpu".to_owned();
-    knobs.storage = Storage::F32Shifted;
+fn on_kernel(parameters: &mut Parameters) {
+    parameters.engine = "wgpu".to_owned();
+    parameters.storage = Storage::F32Shifted;
 }
 
-fn poiseuille(quick: bool) -> Vec<Knobs> {
+fn poiseuille(quick: bool) -> Vec<Parameters> {
     let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(Flow::Poiseuille, "", cells, taus, collisions)
     };
@@ -64,17 +64,17 @@ fn poiseuille(quick: bool) -> Vec<Knobs> {
     let some = grid(&[8, 16], &FEW_TAUS, &Preset::ALL);
     let mut runs = grid(&[8, 12, 16, 24], &TAUS, &Preset::ALL);
     for velocity in [0.03, 0.1, 0.2] {
-        runs.extend(changed(&some, |knobs| knobs.lattice_velocity = velocity));
+        runs.extend(changed(&some, |parameters| parameters.lattice_velocity = velocity));
     }
     runs.extend(changed(&some, on_kernel));
     let mrt = grid(&[8, 16], &FEW_TAUS, &[DHumieres, Trt]);
     for storage in [Storage::F32, Storage::F16Shifted] {
-        runs.extend(changed(&mrt, |knobs| knobs.storage = storage));
+        runs.extend(changed(&mrt, |parameters| parameters.storage = storage));
     }
     runs
 }
 
-fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> {
+fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Parameters> {
     let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(flow, fraction, cells, taus, collisions)
     };
@@ -87,31 +87,31 @@ fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Knobs> 
     let mut solid = coarse.clone();
     solid.extend(grid(&[8, 12, 16], &[1.0, 2.0], &[DHumieres]));
     solid.extend(grid(&[24], &[0.6, 0.8, 1.0, 1.5], &[DHumieres]));
-    runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
-    runs.extend(changed(&solid, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    runs.extend(changed(&solid, |parameters| "eps".clone_into(&mut parameters.weight)));
+    runs.extend(changed(&solid, |parameters| "superposition".clone_into(&mut parameters.operator)));
     runs.extend(changed(&grid(&[8, 16], &FEW_TAUS, &[DHumieres]), on_kernel));
     let sampled: &[u32] = if flow == Flow::Sc { &[1, 2, 3, 5, 10] } else { &[2, 5] };
     for &samples in sampled {
-        runs.extend(changed(&coarse, |knobs| knobs.samples = samples));
+        runs.extend(changed(&coarse, |parameters| parameters.samples = samples));
     }
     if flow != Flow::Sc {
         return runs;
     }
     let few = grid(&[8, 12], &FEW_TAUS, &[DHumieres]);
     for velocity in [1e-3, 3e-3, 1e-2] {
-        let faster = changed(&few, |knobs| knobs.lattice_velocity = velocity);
+        let faster = changed(&few, |parameters| parameters.lattice_velocity = velocity);
         runs.extend(faster.iter().cloned());
         for storage in [Storage::F32, Storage::F16Shifted] {
-            runs.extend(changed(&faster, |knobs| knobs.storage = storage));
+            runs.extend(changed(&faster, |parameters| parameters.storage = storage));
         }
     }
     for storage in [Storage::F32, Storage::F16Shifted] {
-        runs.extend(changed(&few, |knobs| knobs.storage = storage));
+        runs.extend(changed(&few, |parameters| parameters.storage = storage));
     }
     runs
 }
 
-fn random(quick: bool) -> Vec<Knobs> {
+fn random(quick: bool) -> Vec<Parameters> {
     let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         let all = ["0.2", "0.45"];
         all.map(|fraction| self::grid(Flow::Random, fraction, cells, taus, collisions)).concat()
@@ -122,12 +122,12 @@ fn random(quick: bool) -> Vec<Knobs> {
     let mut runs = grid(&[12, 16, 24, 32], &[0.6, 0.8, 1.0, 1.5, 2.0], &[DHumieres]);
     runs.extend(grid(&[12, 16, 24], &FEW_TAUS, &[Srt, Trt]));
     let solid = grid(&[12, 16, 24], &FEW_TAUS, &[DHumieres]);
-    runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
-    runs.extend(changed(&solid, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    runs.extend(changed(&solid, |parameters| "eps".clone_into(&mut parameters.weight)));
+    runs.extend(changed(&solid, |parameters| "superposition".clone_into(&mut parameters.operator)));
     runs
 }
 
-fn settling(quick: bool) -> Vec<Knobs> {
+fn settling(quick: bool) -> Vec<Parameters> {
     let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(Flow::Settling, "0.25", cells, taus, collisions)
     };
@@ -137,10 +137,10 @@ fn settling(quick: bool) -> Vec<Knobs> {
     let mut runs = grid(&[4, 6], &TAUS, &[DHumieres]);
     runs.extend(grid(&[4, 6], &FEW_TAUS, &[Srt, Trt]));
     let coarse = grid(&[4, 6], &FEW_TAUS, &[DHumieres]);
-    runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&coarse, |parameters| "eps".clone_into(&mut parameters.weight)));
     runs.extend(changed(&coarse, on_kernel));
     for samples in [2, 5] {
-        runs.extend(changed(&coarse, |knobs| knobs.samples = samples));
+        runs.extend(changed(&coarse, |parameters| parameters.samples = samples));
     }
     runs.extend(grid(&[8], &[2.0, 1.5, 1.0, 0.8, 0.6], &[DHumieres]));
     runs.extend(grid(&[8], &[1.5, 0.8], &[Srt, Trt]));
@@ -153,14 +153,16 @@ fn settling(quick: bool) -> Vec<Knobs> {
     runs.extend(narrow(&[4, 6, 8, 12], &[2.0, 1.5, 0.8, 0.6], &[DHumieres]));
     runs.extend(narrow(&[4, 8, 12], &[1.5, 0.8], &[Srt, Trt]));
     let solid = narrow(&[6, 8, 12], &FEW_TAUS, &[DHumieres]);
-    runs.extend(changed(&solid, |knobs| "eps".clone_into(&mut knobs.weight)));
-    runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    runs.extend(changed(&solid, |parameters| "eps".clone_into(&mut parameters.weight)));
+    runs.extend(changed(&coarse, |parameters| {
+        "superposition".clone_into(&mut parameters.operator)
+    }));
     runs.extend(narrow(&[16], &[2.0, 1.5, 1.0, 0.8], &[DHumieres]));
     runs.extend(grid(&[16], &[2.0, 1.5], &[DHumieres]));
     runs
 }
 
-fn sphere_drag(quick: bool) -> Vec<Knobs> {
+fn sphere_drag(quick: bool) -> Vec<Parameters> {
     let grid = |cells: &[u32], taus: &[f64], collisions: &[Preset]| {
         grid(Flow::SphereDrag, "0.00418879", cells, taus, collisions)
     };
@@ -170,14 +172,16 @@ fn sphere_drag(quick: bool) -> Vec<Knobs> {
     let mut runs = grid(&[20], &[2.0, 1.5, 1.0, 0.8], &[DHumieres]);
     let coarse = grid(&[20], &[1.5], &[DHumieres]);
     runs.extend(changed(&coarse, on_kernel));
-    runs.extend(changed(&coarse, |knobs| "eps".clone_into(&mut knobs.weight)));
+    runs.extend(changed(&coarse, |parameters| "eps".clone_into(&mut parameters.weight)));
     runs.extend(grid(&[20], &[1.5], &[Srt, Trt]));
     runs.extend(grid(&[24], &[2.0], &[DHumieres]));
-    runs.extend(changed(&coarse, |knobs| "superposition".clone_into(&mut knobs.operator)));
+    runs.extend(changed(&coarse, |parameters| {
+        "superposition".clone_into(&mut parameters.operator)
+    }));
     runs.extend(grid(&[30], &[2.0, 1.5, 1.0], &[DHumieres]));
     runs.extend(grid(&[30], &[1.5], &[Srt, Trt]));
-    runs.extend(changed(&grid(&[30], &[1.5], &[DHumieres]), |knobs| {
-        "eps".clone_into(&mut knobs.weight);
+    runs.extend(changed(&grid(&[30], &[1.5], &[DHumieres]), |parameters| {
+        "eps".clone_into(&mut parameters.weight);
     }));
     runs.extend(grid(&[40], &[2.0, 1.5, 1.0], &[DHumieres]));
     runs

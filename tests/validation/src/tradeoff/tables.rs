@@ -2,9 +2,9 @@
 
 use super::figures::{on_front, placed, problems};
 use psmrt::table::Table;
-use psmrt::tradeoff::evidence::SolidKnob;
-use psmrt::tradeoff::knobs::COLUMNS;
+use psmrt::tradeoff::evidence::SolidMethod;
 use psmrt::tradeoff::model::Models;
+use psmrt::tradeoff::parameters::COLUMNS;
 use psmrt::tradeoff::row::Row;
 use psmrt::tradeoff::trial::Trial;
 use psmrt_reference::collision::Preset;
@@ -49,7 +49,7 @@ pub fn fits(models: &Models) -> Table {
         let ((a, da), (b, db)) = (whole(p[0], e[0]), whole(p[2], e[2]));
         let rows =
             [("a", a, da), ("m", p[1], e[1]), ("b", b, db), ("n", p[3], e[3]), ("q", p[4], e[4])];
-        let words = ["grains", Preset::DHumieres.word(), SolidKnob::SolidFraction.word()];
+        let words = ["grains", Preset::DHumieres.word(), SolidMethod::SolidFraction.word()];
         add(words, model.counts, &rows, model.scatter, model.band());
     }
     for model in &models.walls {
@@ -68,7 +68,7 @@ pub fn fronts(rows: &[Row], costs: &Table) -> Table {
     let mut table = Table::new(&columns);
     for problem in problems(rows) {
         for best in on_front(&placed(&problem, rows, costs), false) {
-            let mut row = best.row.knobs.row();
+            let mut row = best.row.parameters.row();
             row.push(best.row.error.map_or_else(String::new, |error| format!("{error:.4e}")));
             row.push(best.row.cell_updates().to_string());
             row.push(format!("{:.3e}", best.seconds));
@@ -87,7 +87,7 @@ pub fn check(trials: &[Trial]) -> Table {
         .collect();
     let mut table = Table::new(&columns);
     for trial in trials {
-        let mut row = trial.row.knobs.row();
+        let mut row = trial.row.parameters.row();
         let [low, high] = trial.ends;
         for value in [trial.predicted, low, high, trial.measured] {
             row.push(format!("{value:.4e}"));

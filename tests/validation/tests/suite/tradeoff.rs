@@ -4,19 +4,19 @@ use crate::common::{Budget, golden_rows};
 use proptest::prelude::*;
 use psmrt::table::Table;
 use psmrt::tradeoff::evidence::{
-    GrainPoint, SolidKnob, committed_sweep, grain_points, wall_points,
+    GrainPoint, SolidMethod, committed_sweep, grain_points, wall_points,
 };
-use psmrt::tradeoff::knobs::{Flow, Knobs, Storage};
 use psmrt::tradeoff::model::{GrainModel, Models};
 use psmrt::tradeoff::model_eps::EpsModel;
+use psmrt::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt::tradeoff::row::Row;
 use psmrt::tradeoff::trial::{committed_results, score, trials};
 use psmrt_reference::collision::Preset;
 use psmrt_report::render_svg;
 use psmrt_validation::cases::{CASES, Golden};
 use psmrt_validation::tradeoff::effects;
-use psmrt_validation::tradeoff::front::front;
 use psmrt_validation::tradeoff::measure::Runner;
+use psmrt_validation::tradeoff::pareto::front;
 use psmrt_validation::tradeoff::record::Record;
 use psmrt_validation::tradeoff::storage::half;
 use psmrt_validation::tradeoff::sweep::runs;
@@ -35,7 +35,7 @@ fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
                 let leak = 4.0 * (tau - 0.5) / (cells * cells);
                 let error = f64::powf(drag, 0.8) * (leak + 3.0 / cells.powi(3));
                 points.push(GrainPoint {
-                    solid: SolidKnob::Usual,
+                    solid: SolidMethod::Usual,
                     geometry: geometry.to_owned(),
                     source: "synthetic",
                     collision: Preset::DHumieres,
@@ -51,7 +51,7 @@ fn synthetic(mut noise: impl FnMut() -> f64) -> Vec<GrainPoint> {
 }
 
 fn fitted(points: &[GrainPoint]) -> Option<GrainModel> {
-    GrainModel::fit(Preset::DHumieres, SolidKnob::Usual, points)
+    GrainModel::fit(Preset::DHumieres, SolidMethod::Usual, points)
 }
 
 #[test]
@@ -90,7 +90,7 @@ fn fit_with_b_epsilon_recovers_the_coefficients_of_both_its_errors() {
         let leak = 4.0 * drag.powf(0.8) * (tau - 0.5) / (d * d);
         let shift = 0.4 * drag.powf(0.3) * (tau - 0.5).powf(-0.6) / d;
         point.error = (1.0 + leak) * (-shift).exp() - 1.0;
-        point.solid = SolidKnob::SolidFraction;
+        point.solid = SolidMethod::SolidFraction;
     }
     // Of either sign: that is why it has a form of its own.
     assert!(points.iter().any(|p| p.error < -0.2) && points.iter().any(|p| p.error > 0.2));
@@ -159,8 +159,8 @@ fn half_precision_rounds_as_ieee_754_says() {
 fn knobs_read_back_as_they_were_written() {
     let all = Flow::ALL.into_iter().flat_map(|flow| runs(flow, false));
     let mut count = 0;
-    for knobs in all {
-        assert_eq!(Knobs::from_row(&knobs.row()).unwrap(), knobs);
+    for parameters in all {
+        assert_eq!(Parameters::from_row(&parameters.row()).unwrap(), parameters);
         count += 1;
     }
     assert!(count > 500, "{count}");
@@ -179,11 +179,11 @@ fn a_sweep_goes_on_after_it_was_cut_off_and_refuses_a_foreign_file() {
     fs::write(&file, format!("{whole}sc,0.2,8,0.")).unwrap();
     let mut again = Record::open(&file, "# another header\n").unwrap();
     assert_eq!(again.rows.len(), 2);
-    assert!(again.holds(&rows[0].knobs) && !again.holds(&rows[2].knobs));
+    assert!(again.holds(&rows[0].parameters) && !again.holds(&rows[2].parameters));
     assert_eq!(fs::read_to_string(&file).unwrap(), whole);
     again.add(rows[2].clone()).unwrap();
     let read = Record::open(&file, "").unwrap().rows;
-    assert_eq!(read[2].knobs, rows[2].knobs);
+    assert_eq!(read[2].parameters, rows[2].parameters);
 
     let foreign = folder.path().join("foreign.csv");
     fs::write(&foreign, "a,b\n1,2\n").unwrap();
@@ -193,8 +193,8 @@ fn a_sweep_goes_on_after_it_was_cut_off_and_refuses_a_foreign_file() {
 }
 
 /// One measured row, its cell updates counted.
-fn measured(runner: &mut Runner, knobs: &Knobs, budget: &mut Budget) -> Row {
-    let row = runner.measure(knobs).unwrap();
+fn measured(runner: &mut Runner, parameters: &Parameters, budget: &mut Budget) -> Row {
+    let row = runner.measure(parameters).unwrap();
     budget.spend(row.cell_updates());
     row
 }
@@ -206,16 +206,16 @@ fn committed_rows_can_be_measured_again() {
     let committed = committed_sweep().unwrap();
     let mut compared = 0;
     for row in &committed {
-        let Knobs { flow, cells, tau, ref engine, storage, .. } = row.knobs;
+        let Parameters { flow, cells, tau, ref engine, storage, .. } = row.parameters;
         let coarse = match flow {
-            Flow::Settling => cells == 4 && tau == 1.5 && row.knobs.geometry == "0.5",
+            Flow::Settling => cells == 4 && tau == 1.5 && row.parameters.geometry == "0.5",
             Flow::SphereDrag => false,
             _ => cells == 8 && tau == 1.5,
         };
         if !coarse || engine != "reference" || storage != Storage::F64 {
             continue;
         }
-        let again = measured(&mut runner, &row.knobs, &mut budget);
+        let again = measured(&mut runner, &row.parameters, &mut budget);
         let (new, old) = (again.error.unwrap(), row.error.unwrap());
         // The same program on another machine: mathematical libraries differ in the last digit, and the error is
         // rounded to six. And the committed flows were taken for steady by an older criterion, three changes below
@@ -226,7 +226,7 @@ fn committed_rows_can_be_measured_again() {
             _ => 2e-4,
         };
         let allowed = 1e-5 * old.abs().max(1e-3) + left * (1.0 + old.abs());
-        assert!((new - old).abs() < allowed, "{:?}: {new} {old}", row.knobs);
+        assert!((new - old).abs() < allowed, "{:?}: {new} {old}", row.parameters);
         compared += 1;
     }
     assert!(compared >= 30, "only {compared}");
@@ -238,9 +238,9 @@ fn unshifted_single_precision_loses_digits_as_the_flow_slows_and_shifted_does_no
     let mut runner = Runner::new(Path::new(GOLDEN), None).unwrap();
     let mut lost = |storage, lattice_velocity| {
         let mut error = |storage| {
-            let usual = Knobs::new(Flow::Sc, "0.2", 8, 0.8, Preset::DHumieres);
-            let knobs = Knobs { storage, lattice_velocity, ..usual };
-            measured(&mut runner, &knobs, &mut budget).error.unwrap()
+            let usual = Parameters::new(Flow::Sc, "0.2", 8, 0.8, Preset::DHumieres);
+            let parameters = Parameters { storage, lattice_velocity, ..usual };
+            measured(&mut runner, &parameters, &mut budget).error.unwrap()
         };
         // All of these run for the same number of steps.
         (error(storage) - error(Storage::F32Shifted)).abs()
@@ -262,18 +262,18 @@ fn what_was_kept_back_is_in_no_fit() {
     assert!(results.len() >= 12);
     for listed in &list[1..] {
         let listed: Vec<_> = listed.iter().map(str::to_owned).collect();
-        let knobs = Knobs::from_row(&listed).unwrap();
-        let row = results.iter().find(|row| row.knobs == knobs);
+        let parameters = Parameters::from_row(&listed).unwrap();
+        let row = results.iter().find(|row| row.parameters == parameters);
         let row = row.unwrap_or_else(|| panic!("{listed:?} has no result"));
-        let Some(cells) = row.knobs.cells_per_diameter() else { continue };
+        let Some(cells) = row.parameters.cells_per_diameter() else { continue };
         let same = points.iter().any(|point| {
-            point.collision == row.knobs.collision
-                && SolidKnob::of(&row.knobs) == Some(point.solid)
-                && point.tau == row.knobs.tau
+            point.collision == row.parameters.collision
+                && SolidMethod::of(&row.parameters) == Some(point.solid)
+                && point.tau == row.parameters.tau
                 && (point.cells - cells).abs() < 1e-3
                 && point.drag == row.drag
         });
-        assert!(!same, "{:?} is among the points", row.knobs);
+        assert!(!same, "{:?} is among the points", row.parameters);
     }
 }
 

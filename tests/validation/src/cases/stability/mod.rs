@@ -41,7 +41,7 @@ pub const CASE: Case = Case {
     draw,
 };
 
-/// The flows whose knob is a velocity.
+/// The flows whose parameter is a velocity.
 const FLOWS: [&str; 5] = ["shear_layer", "taylor_green", "abc", "bed_force", "bed_inlet"];
 
 pub(super) const COLLISIONS: [(&str, &str); 3] =

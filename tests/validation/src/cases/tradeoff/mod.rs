@@ -7,16 +7,16 @@ use super::{Bench, Case, CaseError, Claim, Golden};
 use crate::tradeoff::effects::effects;
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
 use psmrt::table::Table;
-use psmrt::tradeoff::evidence::{SolidKnob, grain_points, wall_points};
-use psmrt::tradeoff::knobs::{Flow, Storage};
+use psmrt::tradeoff::evidence::{SolidMethod, grain_points, wall_points};
 use psmrt::tradeoff::model::Models;
+use psmrt::tradeoff::parameters::{Flow, Storage};
 use psmrt::tradeoff::row::Row;
 use psmrt::tradeoff::trial::{Trial, score, trials};
 
 /// The trade-off study.
 pub const CASE: Case = Case {
     name: "tradeoff",
-    title: "Speed for accuracy: what each knob costs and gives",
+    title: "Speed against accuracy: what each parameter costs and gives",
     about: &[
         "Flows with known answers, computed with many settings of the knobs that a scene has: cells per grain, \
          relaxation time, lattice velocity, collision, weight B, operator, coverage, precision, engine. Each \
@@ -69,10 +69,10 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
     let [[first, of_first], [hits, of]] = score(&trials);
     let widest = models.grains.iter().map(|model| model.band()).fold(0.0, f64::max);
     let magic = rows.iter().filter(|row| {
-        let knobs = &row.knobs;
-        knobs.flow == Flow::Poiseuille
-            && knobs.collision == Preset::Trt
-            && knobs.storage == Storage::F64
+        let parameters = &row.parameters;
+        parameters.flow == Flow::Poiseuille
+            && parameters.collision == Preset::Trt
+            && parameters.storage == Storage::F64
     });
     let magic = magic.filter_map(|row| row.error).fold(0.0, f64::max);
     let kernel = effects(&rows).into_iter().filter(|effect| effect.what.starts_with("engine wgpu"));
@@ -81,7 +81,7 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
         .into_iter()
         .filter(|point| {
             let this = point.collision == Preset::DHumieres && point.tau == 1.5;
-            let usual = point.solid == SolidKnob::Usual;
+            let usual = point.solid == SolidMethod::Usual;
             this && usual && point.geometry == "SC 0.2" && point.cells > 8.0
         })
         .map(|point| (point.cells, point.error))
