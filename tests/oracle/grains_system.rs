@@ -49,7 +49,7 @@ fn a_pyramid_at_rest_stays_at_rest_for_a_hundred_thousand_sub_steps() {
         // Round-off of positions of order 2, added up at random over 1e5 sub-steps: 300 x 4e-16.
         assert!(
             way < 1e-13 && now.velocity.norm() < 1e-12,
-            "a grain of a pyramid at rest has moved by {option:e}, its velocity is {:e}",
+            "a grain of a pyramid at rest has moved by {way:e}, its velocity is {:e}",
             now.velocity.norm()
         );
         assert!(
