@@ -2,7 +2,7 @@
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 8 | `PSMRTCK2`: the digit is the version of this format |
+//! | 8 | `PSMRTCK3`: the digit is the version of this format |
 //! | 8 | length of the header |
 //! | | header, JSON: [`Header`] |
 //! | | the engine's state |
@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 
-use crate::engine::Engine;
+use crate::engine::Coupled;
 use crate::output::atomic;
 use crate::output::csv::Mark;
 use crate::output::folder::{self, RunFolder};
@@ -30,7 +30,7 @@ use crate::scene::Scene;
 /// Name of the folder of a run's checkpoints.
 pub const FOLDER: &str = "checkpoints";
 
-const MAGIC: &[u8; 8] = b"PSMRTCK2";
+const MAGIC: &[u8; 8] = b"PSMRTCK3";
 
 /// How the magic of all versions begins.
 const ANY_VERSION: &[u8] = b"PSMRTCK";
@@ -79,7 +79,7 @@ pub struct Progress {
 }
 
 impl Header {
-    fn new(folder: &RunFolder, scene: &Scene, engine: &dyn Engine, progress: Progress) -> Self {
+    fn new(folder: &RunFolder, scene: &Scene, engine: &Coupled, progress: Progress) -> Self {
         Header {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             engine: engine.name().to_owned(),
@@ -92,7 +92,7 @@ impl Header {
     }
 
     /// What keeps a scene from going on from here, if something does.
-    fn obstacle(&self, folder: &RunFolder, scene: &Scene, engine: &dyn Engine) -> Option<String> {
+    fn obstacle(&self, folder: &RunFolder, scene: &Scene, engine: &Coupled) -> Option<String> {
         let again = "put it back as it was, or start a new run";
         for input in inputs(scene) {
             match self.inputs.iter().find(|known| known.name == input.name) {
@@ -180,7 +180,7 @@ pub fn folder(run: &Path) -> PathBuf {
 pub fn save(
     run: &RunFolder,
     scene: &Scene,
-    engine: &dyn Engine,
+    engine: &Coupled,
     progress: Progress,
 ) -> Result<PathBuf, CheckpointError> {
     let header = Header::new(run, scene, engine, progress);
@@ -227,7 +227,7 @@ pub fn check(
     path: &Path,
     run: &RunFolder,
     scene: &Scene,
-    engine: &dyn Engine,
+    engine: &Coupled,
 ) -> Result<Header, CheckpointError> {
     check_sum(path)?;
     let (header, _) = open(path).map_err(|error| file_error(path, error))?;
@@ -244,7 +244,7 @@ pub fn load(
     path: &Path,
     run: &RunFolder,
     scene: &Scene,
-    engine: &mut dyn Engine,
+    engine: &mut Coupled,
 ) -> Result<Progress, CheckpointError> {
     let header = check(path, run, scene, engine)?;
     let (_, mut file) = open(path).map_err(|error| file_error(path, error))?;

@@ -1,11 +1,13 @@
 //! What this machine has.
 
 mod available;
+mod spent;
 
 use std::path::Path;
 use std::time::Duration;
 
 pub use available::{Available, available};
+pub use spent::{Beginning, Spent};
 
 /// Main memory in bytes, where the system says so.
 pub fn memory_bytes() -> Option<u64> {

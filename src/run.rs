@@ -14,7 +14,7 @@ use thiserror::Error;
 
 use crate::checkpoint::{self, CheckpointError, Progress};
 use crate::courses::Lookout;
-use crate::engine::{Engine, EngineStop};
+use crate::engine::{Coupled, EngineStop};
 use crate::output::folder::RunFolder;
 use crate::output::names;
 use crate::output::records::Recorder;
@@ -141,7 +141,7 @@ const BATCH_UPDATES: u64 = 200_000;
 /// and `resumed` say.
 pub fn run(
     scene: &Scene,
-    engine: &mut dyn Engine,
+    engine: &mut Coupled,
     folder: &RunFolder,
     resumed: Option<&Progress>,
     watcher: &mut dyn Watcher,
@@ -213,7 +213,7 @@ impl<'a> Run<'a> {
 
     /// Steps to the next event. Errors where the state breaks or a prescribed sphere's way ends: then
     /// nothing more is recorded.
-    fn step_on(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+    fn step_on(&mut self, engine: &mut Coupled) -> Result<(), RunError> {
         let now = engine.steps();
         let event = self.next_event(now);
         let meeting = self.lookout.meeting_until(event, u64::MAX);
@@ -234,7 +234,7 @@ impl<'a> Run<'a> {
     /// Makes steps until the run has come to an end.
     fn advance(
         &mut self,
-        engine: &mut dyn Engine,
+        engine: &mut Coupled,
         from_the_start: bool,
         watcher: &mut dyn Watcher,
     ) -> Result<End, RunError> {
@@ -269,7 +269,7 @@ impl<'a> Run<'a> {
     /// Takes the records that are due now. Errors if the state is broken: it is not written. If one of
     /// them cannot be written the others are taken all the same, so that the state of this step can still
     /// be saved elsewhere.
-    fn observe(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+    fn observe(&mut self, engine: &mut Coupled) -> Result<(), RunError> {
         let now = engine.steps();
         let mut written = Ok(());
         if self.recorders.iter().any(|recorder| recorder.record.rhythm.is_due(now)) {
@@ -282,7 +282,7 @@ impl<'a> Run<'a> {
             written = written.and(recorder.take(self.scene, engine));
         }
         if let Some(steady) = &mut self.steady {
-            steady.look(self.scene, engine);
+            steady.look(&self.recorders, now);
         }
         Ok(written?)
     }
@@ -303,7 +303,7 @@ impl<'a> Run<'a> {
     }
 
     /// Saves the state. Errors if it is broken: then the last one that was not is kept.
-    fn save(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+    fn save(&mut self, engine: &mut Coupled) -> Result<(), RunError> {
         if !self.folder.is_there() {
             return Err(io::Error::from(io::ErrorKind::NotFound).into());
         }
@@ -311,7 +311,7 @@ impl<'a> Run<'a> {
         self.save_into(folder, engine)
     }
 
-    fn save_into(&mut self, folder: &RunFolder, engine: &mut dyn Engine) -> Result<(), RunError> {
+    fn save_into(&mut self, folder: &RunFolder, engine: &mut Coupled) -> Result<(), RunError> {
         engine.look()?;
         let tables = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
         let progress = Progress { tables, steady: self.steady.as_ref().map(steady::Watch::save) };
@@ -321,7 +321,7 @@ impl<'a> Run<'a> {
 
     /// Saves what can be saved of a run whose folder has gone: scene, lists, tables (they are still open)
     /// and state, in a fresh folder beside it.
-    fn rescue(&mut self, engine: &mut dyn Engine) -> RunError {
+    fn rescue(&mut self, engine: &mut Coupled) -> RunError {
         let rescue = match self.save_elsewhere(engine) {
             Ok(folder) => format!(
                 "its state and its tables are saved: psmrt resume {} (pictures and fields written before \
@@ -335,7 +335,7 @@ impl<'a> Run<'a> {
 
     fn save_elsewhere(
         &mut self,
-        engine: &mut dyn Engine,
+        engine: &mut Coupled,
     ) -> Result<RunFolder, Box<dyn std::error::Error>> {
         let folder = RunFolder::rescue_of(self.folder)?;
         folder.keep(self.scene)?;
@@ -347,7 +347,7 @@ impl<'a> Run<'a> {
     }
 
     /// Takes the records that are due at the end. Errors if the state is broken.
-    fn finish(&mut self, engine: &mut dyn Engine) -> Result<(), RunError> {
+    fn finish(&mut self, engine: &mut Coupled) -> Result<(), RunError> {
         engine.look()?;
         for recorder in &mut self.recorders {
             if recorder.record.rhythm == Rhythm::AtEnd {

@@ -9,7 +9,7 @@ use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::{Vec3, viscosity};
 use thiserror::Error;
 
-use crate::engine::{Engine, EngineStop};
+use crate::engine::{Coupled, EngineStop};
 use crate::scene::check::MAX_SPEED;
 use crate::scene::check::hardness::{Burden, IN_IMPACT, ONE_ON_ONE};
 use crate::scene::{FreePart, Scene};
@@ -40,11 +40,7 @@ impl fmt::Display for GrainStop {
 }
 
 /// The stop in SI units if a free grain is to blame.
-pub(crate) fn explained(
-    stop: &EngineStop,
-    scene: &Scene,
-    engine: &dyn Engine,
-) -> Option<GrainStop> {
+pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &Coupled) -> Option<GrainStop> {
     let EngineStop::Broken(CoupledStop::Grains(error)) = stop else { return None };
     let case = Case { scene, part: scene.free.as_ref()?, system: engine.free_grains()? };
     let (symptom, cause, remedy) = match error {

@@ -149,12 +149,17 @@ impl Solver {
     /// One step of the fluid, the solids staying where they are. Errors as [`Self::step`].
     pub fn advance_fluid(&mut self) -> Result<(), Stopped> {
         self.guard.look(&self.setup, &self.f, self.steps)?;
+        self.advance_unguarded();
+        Ok(())
+    }
+
+    /// The same without a look of the guard, for a caller that has its own.
+    pub fn advance_unguarded(&mut self) {
         self.collide(); // f → f*, and the loads on the solids         (right side of Eq. 1)
         // f* → f   (left side of Eq. 1)
         stream(&self.setup.domain, &self.slow_means, &self.post, &mut self.f);
         self.slow_means.follow(&self.setup.domain, &self.post);
         self.steps += 1;
-        Ok(())
     }
 
     /// Lets `place` change each solid, by its number, and lists anew what the moved ones cover.

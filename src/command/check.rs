@@ -31,7 +31,7 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     let (numbers, models, mut warnings) = (numbers(&scene), models(&scene), warnings(&scene));
     // A run writes to a folder below this one, unless it is told otherwise.
     warnings.extend(disk::warnings(&scene, Path::new(".")));
-    let speed = calibrate(&scene, engine.as_mut(), CALIBRATION);
+    let speed = calibrate(&scene, &mut engine, CALIBRATION);
     if request.json {
         let engines = speed.map(|pace| {
             json!([{

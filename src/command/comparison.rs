@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::execute::write_figure;
 use super::{CommandError, write};
-use crate::engine::Engine;
+use crate::engine::Coupled;
 use crate::exact::{Comparison, PlanePoiseuille};
 use crate::output::csv::{self, Column};
 use crate::output::names::COMPARISON;
@@ -25,7 +25,7 @@ const COLUMNS: [Column; 3] = [
 pub(super) fn compare(
     scene: &Scene,
     exact: &PlanePoiseuille,
-    engine: &dyn Engine,
+    engine: &Coupled,
     folder: &Path,
 ) -> Result<Comparison, CommandError> {
     let middle = middle(&scene.setup.domain);

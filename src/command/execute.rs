@@ -13,7 +13,7 @@ use super::progress::Progress as ProgressBar;
 use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, summary, write};
 use crate::checkpoint::Progress;
-use crate::engine::Engine;
+use crate::engine::Coupled;
 use crate::estimate::{Warning, disk, warnings};
 use crate::output::folder::RunFolder;
 use crate::output::{atomic, csv, grain_plots, names, plot};
@@ -29,7 +29,7 @@ const INTERRUPTED: i32 = 130;
 /// Runs a scene from where `engine` is, with its results in `folder`.
 pub(super) fn execute(
     scene: &Scene,
-    engine: &mut dyn Engine,
+    engine: &mut Coupled,
     folder: &RunFolder,
     resumed: Option<&Progress>,
     json: bool,
@@ -38,7 +38,7 @@ pub(super) fn execute(
     if !json {
         warn(scene, folder.path());
     }
-    let facts = |engine: &dyn Engine, state: &str, end: Option<End>| {
+    let facts = |engine: &Coupled, state: &str, end: Option<End>| {
         write_facts(scene, engine, folder, (first_step, start), (state, end))
     };
     facts(engine, "running", None)?;
@@ -183,7 +183,7 @@ pub fn interruption() -> Arc<AtomicBool> {
 /// Writes `run.json`: what is needed to repeat the run, and how it went.
 fn write_facts(
     scene: &Scene,
-    engine: &dyn Engine,
+    engine: &Coupled,
     folder: &RunFolder,
     (first_step, start): (u64, Instant),
     (state, end): (&str, Option<End>),

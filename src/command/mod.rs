@@ -21,7 +21,7 @@ use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
 use crate::conformance::files::FilesError;
-use crate::engine::{self, Engine, OpenError, StartError};
+use crate::engine::{Coupled, DeviceError, StartError, open};
 use crate::estimate::memory;
 use crate::kernel::{Gpu, KernelError, adapters};
 use crate::output::folder::FolderError;
@@ -44,7 +44,7 @@ pub enum CommandError {
     Run(#[from] RunError),
     /// The device cannot be had, or not for this scene.
     #[error(transparent)]
-    Device(#[from] KernelError),
+    Device(#[from] DeviceError),
     /// A run cannot be resumed.
     #[error("{0}")]
     Resume(String),
@@ -108,6 +108,12 @@ pub enum CommandError {
     },
 }
 
+impl From<KernelError> for CommandError {
+    fn from(error: KernelError) -> Self {
+        CommandError::Device(error.into())
+    }
+}
+
 impl CommandError {
     /// The error for scripts: `{"error": ...}`, a scene's with its file, line, key and value.
     pub fn to_json(&self) -> serde_json::Value {
@@ -143,11 +149,13 @@ impl CommandError {
 
 /// The engine that a scene asks for, at its start. With `profiled` it keeps where its time goes, if it
 /// can.
-fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>, CommandError> {
+fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Coupled, CommandError> {
     let name = file.display().to_string();
-    let refused =
-        |problem: String| SceneError::whole_file(&name, problem, "change the scene").into();
-    if !wants_kernel(scene) {
+    let refused = |problem: String| -> CommandError {
+        SceneError::whole_file(&name, problem, "change the scene").into()
+    };
+    let wants_kernel = wants_kernel(scene);
+    if !wants_kernel {
         if let (EngineKind::Reference, Some(name)) = (scene.engine, &scene.adapter) {
             tell(&format!(
                 "engine.adapter = \"{name}\" of the scene is not used: engine reference computes on the \
@@ -157,18 +165,16 @@ fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Box<dyn Engine>,
         if let Some((problem, remedy)) = memory::shortage(scene) {
             return Err(SceneError::whole_file(&name, problem, remedy).into());
         }
-        return engine::open(scene, None, profiled).map_err(|error| refused(error.to_string()));
     }
-    let gpu = Gpu::open(scene.adapter.as_deref())?;
-    match engine::open(scene, Some(&gpu), profiled) {
-        Ok(engine) => Ok(engine),
-        Err(OpenError::Kernel(StartError::Device(error))) => Err(error.into()),
-        Err(error) => Err(refused(error.to_string())),
-    }
+    let gpu = if wants_kernel { Some(Gpu::open(scene.adapter.as_deref())?) } else { None };
+    open(scene, gpu.as_ref(), profiled).map_err(|error| match error {
+        StartError::Device(error) => error.into(),
+        error => refused(error.to_string()),
+    })
 }
 
 /// The engine as scenes name it.
-fn kind_of(engine: &dyn Engine) -> EngineKind {
+fn kind_of(engine: &Coupled) -> EngineKind {
     match engine.name() {
         "wgpu" => EngineKind::Wgpu,
         _ => EngineKind::Reference,

@@ -10,7 +10,6 @@ use serde_json::{Value, json};
 use super::plan_text::{print, to_json, words};
 use super::say::say;
 use super::{CommandError, engine, engine_changes};
-use crate::engine::Engine;
 use crate::estimate::calibrate;
 use crate::kernel::adapters;
 use crate::output::atomic;
@@ -169,8 +168,8 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
         let mut set = request.set.clone();
         set.extend(engine_changes(Some(kind), None)?);
         let scene = Scene::load(&request.scene, &set)?;
-        let mut engine: Box<dyn Engine> = engine(&scene, &request.scene, false)?;
-        let Some(pace) = calibrate(&scene, engine.as_mut(), CALIBRATION) else {
+        let mut engine = engine(&scene, &request.scene, false)?;
+        let Some(pace) = calibrate(&scene, &mut engine, CALIBRATION) else {
             let problem =
                 "its first steps fail: `psmrt run` says why; a plan needs a scene that runs";
             return Err(CommandError::Usage(format!("{}: {problem}", request.scene.display())));

@@ -3,19 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::engine::Profile;
-use crate::kernel::Spent;
-
-/// The parts with their names, in the order of a step.
-fn parts(profile: &Profile) -> [(&'static str, Spent); 5] {
-    let times = profile.kernel;
-    [
-        ("fluid", times.fluid),
-        ("forces", times.forces),
-        ("grains", profile.grains),
-        ("coverage", times.coverage),
-        ("transfers", times.transfers),
-    ]
-}
+use crate::machine::Spent;
 
 /// Seconds per step on the clock, and of the processor.
 fn seconds_per_step(profile: &Profile, part: Spent) -> [f64; 2] {
@@ -26,7 +14,7 @@ pub(super) fn to_text(profile: &Profile) -> String {
     let mut text = format!("seconds per step, mean of {} steps:\n", profile.steps);
     text += "  part      on the clock  of the processor, all threads";
     let mut sums = [0.0; 2];
-    for (name, part) in parts(profile) {
+    for &(name, part) in &profile.parts {
         let [clock, processor] = seconds_per_step(profile, part);
         sums = [sums[0] + clock, sums[1] + processor];
         text += &format!("\n  {name:<10}{clock:<14.3e}{processor:.3e}");
@@ -36,7 +24,7 @@ pub(super) fn to_text(profile: &Profile) -> String {
 
 pub(super) fn to_json(profile: &Profile) -> Value {
     let mut all = json!({ "steps": profile.steps });
-    for (name, part) in parts(profile) {
+    for &(name, part) in &profile.parts {
         let [clock, processor] = seconds_per_step(profile, part);
         all[format!("{name}_seconds_per_step")] = clock.into();
         all[format!("{name}_processor_seconds_per_step")] = processor.into();

@@ -8,7 +8,7 @@ use super::execute::{execute, held};
 use super::say::{say, tell};
 use super::{CommandError, engine, write};
 use crate::checkpoint::{self, CheckpointError, Header, Progress};
-use crate::engine::Engine;
+use crate::engine::Coupled;
 use crate::output::folder::{RunFolder, SCENE};
 use crate::output::names::FACTS;
 use crate::run::{check_tables, set_aside};
@@ -49,14 +49,14 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
     }
     let scene = Scene::load(&file, &[])?;
     let mut engine = engine(&scene, &file, false)?;
-    let progress = go_back(request, &folder, &scene, engine.as_mut())?;
+    let progress = go_back(request, &folder, &scene, &mut engine)?;
     if progress.is_none() {
         tell("there is no checkpoint yet: the run starts again from its beginning");
         for moved in write(path, |_| set_aside(&scene, &folder))? {
             tell(&format!("what it had written is set aside as {}", moved.display()));
         }
     }
-    execute(&scene, engine.as_mut(), &folder, progress.as_ref(), request.json)
+    execute(&scene, &mut engine, &folder, progress.as_ref(), request.json)
 }
 
 /// What a run says about itself, if it has come to its end.
@@ -95,7 +95,7 @@ fn go_back(
     request: &ResumeRequest,
     folder: &RunFolder,
     scene: &Scene,
-    engine: &mut dyn Engine,
+    engine: &mut Coupled,
 ) -> Result<Option<Progress>, CommandError> {
     let known = checkpoint::list(folder.path()).map_err(unusable)?;
     let Some(path) = request.checkpoint.as_ref().or(known.last()) else { return Ok(None) };
@@ -125,7 +125,7 @@ fn usable(
     path: &Path,
     folder: &RunFolder,
     scene: &Scene,
-    engine: &dyn Engine,
+    engine: &Coupled,
 ) -> Result<Header, CommandError> {
     let header = checkpoint::check(path, folder, scene, engine).map_err(unusable)?;
     check_tables(scene, folder.path(), &header.progress)

@@ -30,8 +30,8 @@ pub fn run(request: &RunRequest) -> Result<(), CommandError> {
     if request.profile && engine.profile().is_none() {
         tell(&format!("--profile: the engine {} does not keep its times", engine.name()));
     }
-    let scene = scene.as_run(kind_of(engine.as_ref()))?;
+    let scene = scene.as_run(kind_of(&engine))?;
     let folder = held(RunFolder::make(request.out.as_deref(), &scene_name(&request.scene))?);
     write(folder.path(), |_| folder.keep(&scene))?;
-    execute(&scene, engine.as_mut(), &folder, None, request.json)
+    execute(&scene, &mut engine, &folder, None, request.json)
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use crate::engine::Engine;
+use crate::engine::Coupled;
 use crate::output::csv::Column;
 use crate::output::grain_means;
 use crate::output::records::{BOX_COLUMNS, FORCE_COLUMNS, box_row, force_row, profile_rows};
@@ -12,7 +12,7 @@ use crate::scene::{Scene, What};
 
 /// The values of the records that are numbers, as they are now: by the name of the record, then by its column.
 /// Of `loads` the forces, summed over the grains; of a profile its largest speed.
-pub(super) fn results(scene: &Scene, engine: &dyn Engine) -> Json {
+pub(super) fn results(scene: &Scene, engine: &Coupled) -> Json {
     let mut all = Map::new();
     for record in &scene.records {
         let values: Vec<(Column, f64)> = match &record.what {
@@ -37,7 +37,7 @@ fn pairs(columns: &[Column], values: &[f64]) -> Vec<(Column, f64)> {
 }
 
 /// The same in words, a line a record; empty if there is none.
-pub(super) fn to_text(scene: &Scene, engine: &dyn Engine) -> String {
+pub(super) fn to_text(scene: &Scene, engine: &Coupled) -> String {
     let width = scene.records.iter().map(|record| record.name.len()).max().unwrap_or(0);
     let mut lines = Vec::new();
     for record in &scene.records {
@@ -79,7 +79,7 @@ fn vector(components: [f64; 3]) -> String {
 
 /// How the criterion of the scene has ended, if it has one. What is still to go is null where it is not known,
 /// or where the changes do not slow down.
-pub(super) fn steady(scene: &Scene, engine: &dyn Engine, end: End) -> Json {
+pub(super) fn steady(scene: &Scene, engine: &Coupled, end: End) -> Json {
     let Some(steady) = &scene.stop.steady else { return Json::Null };
     let left = if let End::Steady { left } | End::NotSteady { left } = end { left } else { None };
     json!({
@@ -94,7 +94,7 @@ pub(super) fn steady(scene: &Scene, engine: &dyn Engine, end: End) -> Json {
 }
 
 /// What is wrong with a run that its limit has ended before it was steady, and what helps; `None` of others.
-pub(super) fn not_steady(scene: &Scene, engine: &dyn Engine, end: End) -> Option<String> {
+pub(super) fn not_steady(scene: &Scene, engine: &Coupled, end: End) -> Option<String> {
     let (End::NotSteady { left }, Some(steady)) = (end, &scene.stop.steady) else { return None };
     let record = &scene.records[steady.record].name;
     let column = steady.column(&scene.records);

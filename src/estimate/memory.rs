@@ -3,6 +3,7 @@
 use psmrt_reference::solids::Shape;
 
 use crate::machine::{self, Available};
+use crate::output::snapshots::BYTES_OF_FIELDS;
 use crate::scene::{EngineKind, Scene, What};
 
 /// A share in a covered cell: the list that holds it, room for the four that a list begins with, and the
@@ -62,8 +63,8 @@ fn of_record(scene: &Scene, what: &What) -> u64 {
     match *what {
         // The momentum of each cell.
         What::Box => 24 * nx * ny * nz,
-        // A plane at a time, as cells, numbers and values.
-        What::Fields { .. } => (state + 32) * nx * ny,
+        // All values, and of a plane at a time the cells and their numbers.
+        What::Fields { .. } => BYTES_OF_FIELDS * nx * ny * nz + (state + 8) * nx * ny,
         // Cells, values, and the picture as text.
         What::Slice { normal, .. } => (state + 128) * nx * ny * nz / [nx, ny, nz][normal],
         What::Profile { axis, .. } => (state + 48) * [nx, ny, nz][axis],

@@ -6,7 +6,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::engine::Engine;
+use crate::engine::Coupled;
 use crate::machine::processor_time;
 use crate::scene::Scene;
 
@@ -36,7 +36,7 @@ pub struct Pace {
 const SHORTEST: Duration = Duration::from_millis(10);
 
 /// Measures how long the scene takes, by running its first steps for `budget`. `None` if they fail.
-pub fn calibrate(scene: &Scene, engine: &mut dyn Engine, budget: Duration) -> Option<Pace> {
+pub fn calibrate(scene: &Scene, engine: &mut Coupled, budget: Duration) -> Option<Pace> {
     // Shaders compile and memory is touched first at their first use, and a device still works when `step`
     // has returned: only what it is asked for then waits for it.
     let is_on_device = engine.adapter().is_some();

@@ -60,4 +60,4 @@ pub use fluid::Kernel;
 pub use fractions::solid_fractions_on_device;
 pub use sight::Summary;
 pub use sphere::{cells_about, sampled_fraction, solid_fraction, solid_fractions};
-pub use watch::{Beginning, KernelTimes, Spent};
+pub use watch::KernelTimes;

@@ -4,7 +4,7 @@
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 
-use crate::engine::{CellState, Engine};
+use crate::engine::{CellState, Coupled};
 
 /// A line or plane of points: its place along each axis in cells, `None` along the axes where it is as the cells
 /// are.
@@ -23,7 +23,7 @@ pub fn plane(axis: usize, at: f64) -> Place {
 /// The state at `place`, for each of the `cells` that says where along the free axes. Cells that grains cover
 /// count like all others: the fluid in them moves with the grain.
 pub fn states(
-    engine: &dyn Engine,
+    engine: &Coupled,
     domain: &Domain,
     place: Place,
     cells: &[[usize; 3]],

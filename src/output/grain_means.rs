@@ -5,7 +5,7 @@ use psmrt_reference::grains::system::{GrainState, GrainSystem};
 use psmrt_reference::lattice::Vec3;
 
 use super::csv::Column;
-use crate::engine::Engine;
+use crate::engine::Coupled;
 use crate::scene::Scene;
 
 /// The columns of a record of kind `grain_means`, after time and step.
@@ -23,7 +23,7 @@ pub const COLUMNS: [Column; 10] = [
 ];
 
 /// Means over the free grains; zeros if there are none.
-pub fn row(scene: &Scene, engine: &dyn Engine) -> [f64; 10] {
+pub fn row(scene: &Scene, engine: &Coupled) -> [f64; 10] {
     let Some(system) = engine.free_grains() else { return [0.0; 10] };
     let units = &scene.units;
     let free = || system.grains().iter().filter(|grain| !grain.held);

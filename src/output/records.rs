@@ -4,11 +4,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::solids::Shape;
+use psmrt_reference::solids::{Load, Shape};
 
 use super::csv::{Column, Mark, TableFile, Value};
 use super::{between, grain_means, names, snapshots};
-use crate::engine::{CellState, Engine};
+use crate::engine::{CellState, Coupled};
 use crate::scene::{Record, Scene, What};
 
 /// The columns of a record of kind `box`, after time and step.
@@ -77,6 +77,8 @@ pub fn tables() -> [(&'static str, &'static [Column]); 4] {
 pub struct Recorder {
     /// What it is.
     pub record: Record,
+    /// The row that was taken last, of those records of which a column may become steady.
+    pub watched: Option<Vec<f64>>,
     folder: PathBuf,
     /// The file of a record that is a table.
     table: Option<TableFile>,
@@ -88,7 +90,7 @@ impl Recorder {
         let path = table_path(record, folder);
         let table = columns(record).map(|columns| named(&path, TableFile::create(&path, &columns)));
         let table = table.transpose()?;
-        Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
+        Ok(Recorder { record: record.clone(), watched: None, folder: folder.to_owned(), table })
     }
 
     /// Opens a record whose table began with what `mark` says; errors if it does not any more. Changes
@@ -97,7 +99,7 @@ impl Recorder {
         let path = table_path(record, folder);
         let table =
             columns(record).map(|_| named(&path, TableFile::reopen(&path, mark))).transpose()?;
-        Ok(Recorder { record: record.clone(), folder: folder.to_owned(), table })
+        Ok(Recorder { record: record.clone(), watched: None, folder: folder.to_owned(), table })
     }
 
     /// Goes on after [`Recorder::reopen`].
@@ -113,7 +115,7 @@ impl Recorder {
     }
 
     /// Takes it for now.
-    pub fn take(&mut self, scene: &Scene, engine: &dyn Engine) -> io::Result<()> {
+    pub fn take(&mut self, scene: &Scene, engine: &Coupled) -> io::Result<()> {
         let path = table_path(&self.record, &self.folder);
         match self.table {
             Some(_) => {
@@ -128,7 +130,7 @@ impl Recorder {
         }
     }
 
-    fn take_rows(&mut self, scene: &Scene, engine: &dyn Engine) -> io::Result<()> {
+    fn take_rows(&mut self, scene: &Scene, engine: &Coupled) -> io::Result<()> {
         let Some(table) = &mut self.table else { return Ok(()) };
         let steps = engine.steps();
         let now = [Value::Real(steps as f64 * scene.units.si_dt), Value::Whole(steps)];
@@ -137,15 +139,19 @@ impl Recorder {
             table.add(&[&now, start, &values].concat())
         };
         match &self.record.what {
-            What::Box => add(&[], &box_row(scene, engine))?,
-            What::GrainMeans => add(&[], &grain_means::row(scene, engine))?,
+            What::Box | What::GrainMeans => {
+                self.watched = watched_row(&self.record.what, scene, engine);
+                add(&[], self.watched.as_deref().unwrap_or_default())?;
+            }
             What::Profile { axis, through } => {
                 for row in profile_rows(scene, engine, *axis, *through) {
                     add(&[], &row)?;
                 }
             }
             What::Loads => {
-                for (grain, row) in (0..).zip(load_rows(scene, engine)) {
+                let loads = engine.loads();
+                self.watched = Some(summed(scene, &loads).to_vec());
+                for (grain, row) in (0..).zip(rows_of(scene, engine, &loads)) {
                     add(&[Value::Whole(grain)], &row[1..])?;
                 }
             }
@@ -185,7 +191,7 @@ pub fn columns(record: &Record) -> Option<Vec<Column>> {
 }
 
 /// The values of [`BOX_COLUMNS`].
-pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
+pub fn box_row(scene: &Scene, engine: &Coupled) -> [f64; 5] {
     let (means, units) = (engine.box_means(), &scene.units);
     // The superficial velocity is the mass flux over the reference density, 1. That of a collision, which cells
     // with solids in them brake, does not exist before the first one: the start has the flux that was set.
@@ -201,7 +207,7 @@ pub fn box_row(scene: &Scene, engine: &dyn Engine) -> [f64; 5] {
 }
 
 /// Mean of the momentum with half a step of the body force, `j + G/2`.
-fn flux_at_start(scene: &Scene, engine: &dyn Engine) -> Vec3 {
+fn flux_at_start(scene: &Scene, engine: &Coupled) -> Vec3 {
     let count = scene.setup.domain.cell_count();
     let [nx, ny, _] = scene.setup.domain.cells();
     let planes = (0..count).step_by(nx * ny);
@@ -213,16 +219,31 @@ fn flux_at_start(scene: &Scene, engine: &dyn Engine) -> Vec3 {
 }
 
 /// The values of [`FORCE_COLUMNS`], summed over all grains.
-pub fn force_row(scene: &Scene, engine: &dyn Engine) -> [f64; 3] {
-    let force: Vec3 = engine.loads().iter().map(|load| load.force).sum();
+pub fn force_row(scene: &Scene, engine: &Coupled) -> [f64; 3] {
+    summed(scene, &engine.loads())
+}
+
+fn summed(scene: &Scene, loads: &[Load]) -> [f64; 3] {
+    let force: Vec3 = loads.iter().map(|load| load.force).sum();
     (force * scene.units.si_force()).into()
+}
+
+/// The row of a record of which a column may become steady: of `loads` the forces, summed over all grains. None of
+/// other records.
+pub fn watched_row(what: &What, scene: &Scene, engine: &Coupled) -> Option<Vec<f64>> {
+    match what {
+        What::Box => Some(box_row(scene, engine).to_vec()),
+        What::GrainMeans => Some(grain_means::row(scene, engine).to_vec()),
+        What::Loads => Some(force_row(scene, engine).to_vec()),
+        What::Profile { .. } | What::Fields { .. } | What::Slice { .. } | What::Grains => None,
+    }
 }
 
 /// The values of the columns of a profile along `axis` through a point (in cells): at each centre of a cell along
 /// the axis, first that place, at the end the point.
 pub fn profile_rows(
     scene: &Scene,
-    engine: &dyn Engine,
+    engine: &Coupled,
     axis: usize,
     through: [f64; 3],
 ) -> Vec<[f64; 8]> {
@@ -243,7 +264,11 @@ pub fn profile_rows(
 }
 
 /// The values of the columns of a record of loads, grain by grain.
-pub fn load_rows(scene: &Scene, engine: &dyn Engine) -> Vec<[f64; 20]> {
+pub fn load_rows(scene: &Scene, engine: &Coupled) -> Vec<[f64; 20]> {
+    rows_of(scene, engine, &engine.loads())
+}
+
+fn rows_of(scene: &Scene, engine: &Coupled, loads: &[Load]) -> Vec<[f64; 20]> {
     let units = &scene.units;
     let mut rows = Vec::new();
     let solids = engine.solids();
@@ -252,7 +277,7 @@ pub fn load_rows(scene: &Scene, engine: &dyn Engine) -> Vec<[f64; 20]> {
         Some(g) => engine.displaced().into_iter().map(|volume| volume * g).collect(),
         None => vec![Vec3::zeros(); solids.len()],
     };
-    for (number, (solid, load)) in solids.iter().zip(engine.loads()).enumerate() {
+    for (number, (solid, load)) in solids.iter().zip(loads).enumerate() {
         let diameter = match solid.shape {
             Shape::Sphere { radius } => 2.0 * radius,
             Shape::Cells { .. } => 0.0,

@@ -4,7 +4,7 @@ use psmrt_reference::solids::Shape;
 use psmrt_report::{Axis, Map};
 
 use super::between;
-use crate::engine::{CellState, Engine};
+use crate::engine::{CellState, Coupled};
 use crate::scene::Scene;
 use crate::scene::format_run::Quantity;
 use crate::units::Units;
@@ -17,7 +17,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// The plane at `at` (in cells) along `normal`; `si_range` says where its colours end, if not at its values.
 pub fn map(
     scene: &Scene,
-    engine: &dyn Engine,
+    engine: &Coupled,
     (normal, at): (usize, f64),
     quantity: Quantity,
     si_range: Option<[f64; 2]>,
@@ -70,7 +70,7 @@ pub fn map(
 
 /// Where the plane at `place` along `normal` cuts the grains: centre and radius of each circle, in
 /// cells, with those of images across periodic faces.
-fn outlines(scene: &Scene, engine: &dyn Engine, normal: usize, place: f64) -> Vec<[f64; 3]> {
+fn outlines(scene: &Scene, engine: &Coupled, normal: usize, place: f64) -> Vec<[f64; 3]> {
     let domain = &scene.setup.domain;
     let [right, up] = [[1, 2], [0, 2], [0, 1]][normal];
     let mut circles = Vec::new();

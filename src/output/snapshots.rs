@@ -8,12 +8,12 @@ use psmrt_reference::solids::Load;
 
 use super::vtk::Array;
 use super::{atomic, grain_means, names, npy, vtk};
-use crate::engine::{CellState, Engine};
+use crate::engine::{CellState, Coupled};
 use crate::scene::format_run::FieldFormat;
 use crate::scene::{Record, Rhythm, Scene, What};
 
 /// Writes what `record` wants for now into `folder/<its name>/`, and its list of times.
-pub fn take(record: &Record, scene: &Scene, engine: &dyn Engine, folder: &Path) -> io::Result<()> {
+pub fn take(record: &Record, scene: &Scene, engine: &Coupled, folder: &Path) -> io::Result<()> {
     let name = &record.name;
     let folder_of_files = folder.join(name);
     let step = engine.steps();
@@ -29,13 +29,14 @@ pub fn take(record: &Record, scene: &Scene, engine: &dyn Engine, folder: &Path) 
             return atomic::write(&path, |out| out.write_all(svg.as_bytes()));
         }
         What::Fields { formats } => {
+            let fields = Fields::of(scene, engine);
             if formats.contains(&FieldFormat::Npy) {
-                arrays(scene, engine, &folder_of_files)?;
+                arrays(scene, step, &fields, &folder_of_files)?;
             }
             if !formats.contains(&FieldFormat::Vti) {
                 return Ok(());
             }
-            image(scene, engine, &folder_of_files.join(file(name, step, "vti")))?;
+            image(scene, &fields, &folder_of_files.join(file(name, step, "vti")))?;
             "vti"
         }
         What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => return Ok(()),
@@ -55,57 +56,68 @@ fn file(name: &str, step: u64, suffix: &str) -> String {
     format!("{name}_{step:012}.{suffix}")
 }
 
-/// A value of all cells, x fastest, asked from the engine plane by plane.
-fn cells<'a, const N: usize>(
-    scene: &Scene,
-    engine: &'a dyn Engine,
-    value: impl Fn(&CellState) -> [f64; N] + 'a,
-) -> impl Iterator<Item = f64> + 'a {
-    let [nx, ny, nz] = scene.setup.domain.cells();
-    (0..nz).flat_map(move |z| {
-        let plane: Vec<usize> = (z * nx * ny..(z + 1) * nx * ny).collect();
-        engine.cells(&plane).iter().flat_map(&value).collect::<Vec<f64>>()
-    })
+/// The fields of all cells in SI units, x fastest; asked from the engine once, plane by plane.
+struct Fields {
+    /// Pa above the reference.
+    pressure: Vec<f64>,
+    /// m/s, three components a cell.
+    velocity: Vec<f64>,
+    /// Where there is a solid phase.
+    solid_fraction: Option<Vec<f64>>,
 }
 
-fn image(scene: &Scene, engine: &dyn Engine, path: &Path) -> io::Result<()> {
-    let units = scene.units;
+/// Bytes of [`Fields`] a cell.
+pub const BYTES_OF_FIELDS: u64 = 5 * size_of::<f64>() as u64;
+
+impl Fields {
+    fn of(scene: &Scene, engine: &Coupled) -> Self {
+        let ([nx, ny, nz], units) = (scene.setup.domain.cells(), scene.units);
+        let count = nx * ny * nz;
+        let mut fields = Fields {
+            pressure: Vec::with_capacity(count),
+            velocity: Vec::with_capacity(3 * count),
+            solid_fraction: scene.setup.solid_phase.is_some().then(|| Vec::with_capacity(count)),
+        };
+        let si_velocity = units.si_velocity();
+        for z in 0..nz {
+            let plane: Vec<usize> = (z * nx * ny..(z + 1) * nx * ny).collect();
+            for CellState { density, velocity, solid_fraction } in engine.cells(&plane) {
+                fields.pressure.push(units.si_gauge_pressure(density));
+                fields.velocity.extend((velocity * si_velocity).iter());
+                if let Some(values) = &mut fields.solid_fraction {
+                    values.push(solid_fraction);
+                }
+            }
+        }
+        fields
+    }
+}
+
+fn image(scene: &Scene, fields: &Fields, path: &Path) -> io::Result<()> {
     let mut arrays = vec![
-        Array::new("pressure (Pa)", 1, cells(scene, engine, pressure(scene))),
-        Array::new("velocity (m/s)", 3, cells(scene, engine, velocity(scene))),
+        Array::new("pressure (Pa)", 1, fields.pressure.iter().copied()),
+        Array::new("velocity (m/s)", 3, fields.velocity.iter().copied()),
     ];
-    if scene.setup.solid_phase.is_some() {
-        let values = cells(scene, engine, |cell| [cell.solid_fraction]);
-        arrays.push(Array::new("solid fraction", 1, values));
+    if let Some(values) = &fields.solid_fraction {
+        arrays.push(Array::new("solid fraction", 1, values.iter().copied()));
     }
-    atomic::write(path, |out| vtk::image(out, scene.setup.domain.cells(), units.si_dx, arrays))
+    let (cells, si_dx) = (scene.setup.domain.cells(), scene.units.si_dx);
+    atomic::write(path, |out| vtk::image(out, cells, si_dx, arrays))
 }
 
-fn arrays(scene: &Scene, engine: &dyn Engine, folder: &Path) -> io::Result<()> {
+fn arrays(scene: &Scene, step: u64, fields: &Fields, folder: &Path) -> io::Result<()> {
     let [nx, ny, nz] = scene.setup.domain.cells();
-    let path = |name: &str| folder.join(file(name, engine.steps(), "npy"));
-    atomic::write(&path("pressure"), |out| {
-        npy::array(out, &[nz, ny, nx], cells(scene, engine, pressure(scene)))
-    })?;
-    atomic::write(&path("velocity"), |out| {
-        npy::array(out, &[nz, ny, nx, 3], cells(scene, engine, velocity(scene)))
-    })?;
-    if scene.setup.solid_phase.is_none() {
-        return Ok(());
+    let write = |name: &str, shape: &[usize], values: &[f64]| {
+        atomic::write(&folder.join(file(name, step, "npy")), |out| {
+            npy::array(out, shape, values.iter().copied())
+        })
+    };
+    write("pressure", &[nz, ny, nx], &fields.pressure)?;
+    write("velocity", &[nz, ny, nx, 3], &fields.velocity)?;
+    match &fields.solid_fraction {
+        Some(values) => write("solid_fraction", &[nz, ny, nx], values),
+        None => Ok(()),
     }
-    atomic::write(&path("solid_fraction"), |out| {
-        npy::array(out, &[nz, ny, nx], cells(scene, engine, |cell| [cell.solid_fraction]))
-    })
-}
-
-fn pressure(scene: &Scene) -> impl Fn(&CellState) -> [f64; 1] + use<> {
-    let units = scene.units;
-    move |cell| [units.si_gauge_pressure(cell.density)]
-}
-
-fn velocity(scene: &Scene) -> impl Fn(&CellState) -> [f64; 3] + use<> {
-    let si_unit = scene.units.si_velocity();
-    move |cell| (cell.velocity * si_unit).into()
 }
 
 /// A place (m) moved into the domain along periodic axes.
@@ -117,7 +129,7 @@ fn wrapped(domain: &Domain, si_place: &[f64], si_dx: f64) -> [f64; 3] {
     })
 }
 
-fn grains(scene: &Scene, engine: &dyn Engine, path: &Path) -> io::Result<()> {
+fn grains(scene: &Scene, engine: &Coupled, path: &Path) -> io::Result<()> {
     let rows = super::records::load_rows(scene, engine);
     let domain = &scene.setup.domain;
     let places = rows.iter().flat_map(|row| wrapped(domain, &row[1..4], scene.units.si_dx));

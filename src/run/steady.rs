@@ -8,10 +8,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::Engine;
-use crate::output::grain_means;
-use crate::output::records::{box_row, force_row};
-use crate::scene::{Rhythm, Scene, Steady, What};
+use crate::engine::Coupled;
+use crate::output::records::{Recorder, watched_row};
+use crate::scene::{Rhythm, Scene, Steady};
 
 /// Samples that are kept at most. With twice as many rows every other one is a sample, and so on: a criterion
 /// looks at 128 to 256 times of a long run, however close its rows are.
@@ -154,10 +153,13 @@ impl Watch {
         Some(Watch { steady, least_rows, history, since, left })
     }
 
-    /// Looks at the column if its record is due.
-    pub(super) fn look(&mut self, scene: &Scene, engine: &dyn Engine) {
-        if scene.records[self.steady.record].rhythm.is_due(engine.steps()) {
-            self.take(value_of(scene, engine, &self.steady));
+    /// Looks at the row that the recorder of its record has just taken, if it was due.
+    pub(super) fn look(&mut self, recorders: &[Recorder], steps: u64) {
+        let recorder = &recorders[self.steady.record];
+        if let Some(row) =
+            recorder.watched.as_ref().filter(|_| recorder.record.rhythm.is_due(steps))
+        {
+            self.take(row[self.steady.column]);
         }
     }
 
@@ -197,13 +199,10 @@ impl Watch {
     }
 }
 
-/// What a criterion looks at, now.
-pub(crate) fn value_of(scene: &Scene, engine: &dyn Engine, steady: &Steady) -> f64 {
-    match scene.records[steady.record].what {
-        What::GrainMeans => grain_means::row(scene, engine)[steady.column],
-        What::Loads => force_row(scene, engine)[steady.column],
-        _ => box_row(scene, engine)[steady.column],
-    }
+/// What a criterion looks at, now; not a number for a record that has no such column.
+pub(crate) fn value_of(scene: &Scene, engine: &Coupled, steady: &Steady) -> f64 {
+    let row = watched_row(&scene.records[steady.record].what, scene, engine);
+    row.and_then(|row| row.get(steady.column).copied()).unwrap_or(f64::NAN)
 }
 
 /// Steps in which sound passes the longest side of the box to and fro twice: sooner no flow knows of its ends.

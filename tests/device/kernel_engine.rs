@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::{Folder, psmrt, stdout};
 use crate::common::{Budget, golden_rows};
 use crate::trials::{self, Claim};
-use psmrt::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
+use psmrt::engine::{Coupled, EngineStop, open};
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::CoupledStop;
 use psmrt_reference::guard::Stopped;
@@ -72,8 +72,8 @@ fn scene(text: &str, changes: &[&str]) -> Scene {
         .unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn kernel_engine(scene: &Scene) -> KernelEngine {
-    KernelEngine::new(scene, &trials::gpu().unwrap(), false).unwrap()
+fn kernel_engine(scene: &Scene) -> Coupled {
+    open(scene, Some(&trials::gpu().unwrap()), false).unwrap()
 }
 
 fn free_grains_move_as_in_the_oracle() {
@@ -81,7 +81,7 @@ fn free_grains_move_as_in_the_oracle() {
     const STEPS: u64 = 100;
     let scene = scene(GRAINS, &[]);
     budget.spend(STEPS * scene.setup.domain.cell_count() as u64);
-    let (mut kernel, mut oracle) = (kernel_engine(&scene), ReferenceEngine::new(&scene).unwrap());
+    let (mut kernel, mut oracle) = (kernel_engine(&scene), open(&scene, None, false).unwrap());
     kernel.step(STEPS).unwrap();
     oracle.step(STEPS).unwrap();
     for (found, expected) in kernel.solids().iter().zip(&oracle.solids()) {
@@ -112,7 +112,7 @@ fn balanced_grains_settle_as_in_the_oracle() {
     let text = GRAINS.replace(walls, "").replace("-0.5]", "-0.5]\nbalance = true");
     let scene = scene(&text, &[]);
     budget.spend(STEPS * scene.setup.domain.cell_count() as u64);
-    let (mut kernel, mut oracle) = (kernel_engine(&scene), ReferenceEngine::new(&scene).unwrap());
+    let (mut kernel, mut oracle) = (kernel_engine(&scene), open(&scene, None, false).unwrap());
     // What the body force lacks in the cells of grains, found in double precision by both.
     for (found, expected) in kernel.displaced().iter().zip(&oracle.displaced()) {
         assert!(
@@ -158,7 +158,7 @@ fn grain_that_starts_spinning_slows_down_as_the_exact_curve_says() {
     let mut budget = Budget::kernel(1_000_000);
     let scene = scene(SPINNING, &[]);
     let mut kernel = kernel_engine(&scene);
-    let spin = |kernel: &KernelEngine| kernel.solids()[0].spin.z;
+    let spin = |kernel: &Coupled| kernel.solids()[0].spin.z;
     let start = spin(&kernel);
     // T = 0.1, 0.2 and 0.3: 48 steps each, since ν = 1/30 and a = 4.
     let rows = golden_rows("free_start/exact.csv");
@@ -203,8 +203,7 @@ fn every_golden_scene_starts_and_steps_alike_on_both_engines() {
         }
         budget.spend(STEPS * count as u64);
         oracle_budget.spend(STEPS * count as u64);
-        let (mut kernel, mut oracle) =
-            (kernel_engine(&scene), ReferenceEngine::new(&scene).unwrap());
+        let (mut kernel, mut oracle) = (kernel_engine(&scene), open(&scene, None, false).unwrap());
         kernel.step(STEPS).unwrap();
         oracle.step(STEPS).unwrap();
         let all: Vec<usize> = (0..count).collect();
@@ -239,7 +238,7 @@ fn every_golden_scene_starts_and_steps_alike_on_both_engines() {
 }
 
 /// The bits of a state.
-fn bits(engine: &KernelEngine) -> Vec<u8> {
+fn bits(engine: &Coupled) -> Vec<u8> {
     let mut bytes = Vec::new();
     engine.save(&mut bytes).unwrap();
     bytes
@@ -295,14 +294,14 @@ fn guard_stops_a_run_where_and_why_the_oracles_does() {
     // 5e-3 a step reach the limit of 0.5 after 100.
     budget.spend(720 * 200);
     let scene = scene(RUNAWAY, &[]);
-    let stopped = |engine: &mut dyn Engine| -> Stopped {
+    let stopped = |engine: &mut Coupled| -> Stopped {
         match engine.step(200) {
             Err(EngineStop::Broken(CoupledStop::Fluid(stopped))) => stopped,
             other => panic!("not stopped by the guard: {other:?}"),
         }
     };
     let found = stopped(&mut kernel_engine(&scene));
-    let expected = stopped(&mut ReferenceEngine::new(&scene).unwrap());
+    let expected = stopped(&mut open(&scene, None, false).unwrap());
     println!("{found}\n{expected}");
     assert_eq!((found.step, found.cell), (expected.step, expected.cell));
     assert_eq!(std::mem::discriminant(&found.symptom), std::mem::discriminant(&expected.symptom));
@@ -355,7 +354,7 @@ fn box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available() {
     let gpu = psmrt::kernel::Gpu::open_like_hardware(1 << 16).unwrap();
     // One direction of 32³ cells needs 128 KiB and a little, a binding has 64.
     let scene = scene(RUNAWAY, &["domain.cells=[32,32,32]"]);
-    let message = KernelEngine::new(&scene, &gpu, false).unwrap_err().to_string();
+    let message = open(&scene, Some(&gpu), false).unwrap_err().to_string();
     assert!(message.contains("65536") && message.contains("13"), "{message}");
     assert!(message.contains("larger dx"), "{message}");
 }

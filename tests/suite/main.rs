@@ -12,6 +12,7 @@ mod common;
 mod edges;
 
 mod bad_scenes;
+mod bits;
 mod cli_folder;
 mod cli_info;
 mod cli_memory;

@@ -198,9 +198,9 @@ fn planned_grain_settles_as_predicted() {
     let planned = Scene::from_bytes("planned", planned.into_bytes(), Path::new(""), &[]).unwrap();
     let cells = planned.setup.domain.cell_count() as u64;
     budget.spend(cells * planned.stop.steps);
-    let mut engine = psmrt::engine::ReferenceEngine::new(&planned).unwrap();
-    psmrt::engine::Engine::step(&mut engine, planned.stop.steps).unwrap();
-    let free = psmrt::engine::Engine::free_grains(&engine).unwrap();
+    let mut engine = psmrt::engine::open(&planned, None, false).unwrap();
+    engine.step(planned.stop.steps).unwrap();
+    let free = engine.free_grains().unwrap();
     let si_velocity = -free.grains()[0].velocity.z * planned.units.si_velocity();
     // Stokes' velocity 5e-4 m/s (the scene's grain in an endless fluid) over the exact drag of the shaft.
     let error = si_velocity / (5e-4 / 1.8226828) - 1.0;

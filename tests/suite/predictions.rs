@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::common::Budget;
-use psmrt::engine::{Engine, ReferenceEngine};
+use psmrt::engine::open;
 use psmrt::estimate::speed::{Try, seconds_per_step};
 use psmrt::estimate::{numbers, warnings};
 use psmrt::plan::duct::Duct;
@@ -89,7 +89,7 @@ fn planned_ducts_err_as_promised() {
         let planned = text(&duct, Path::new(""), best, "").unwrap();
         let planned =
             Scene::from_bytes("planned", planned.into_bytes(), Path::new(""), &[]).unwrap();
-        let mut engine = ReferenceEngine::new(&planned).unwrap();
+        let mut engine = open(&planned, None, false).unwrap();
         // The slowest part falls by e in h²/(2 ν (π/2)²) = 0.05 s; 12 times that leaves 6e-6.
         let steps = (0..).find(|&n| f64::from(n) * planned.units.si_dt > 0.6).unwrap();
         engine.step(u64::try_from(steps).unwrap()).unwrap();

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
-use psmrt::engine::ReferenceEngine;
+use psmrt::engine::{Coupled, open, starting_from};
 use psmrt::estimate::{disk, warnings};
 use psmrt::output::records::{box_row, profile_rows};
 use psmrt::output::slice;
@@ -77,11 +77,11 @@ fn couette_flow_half_way_between_the_plates_has_half_the_velocity_on_an_even_gri
 }
 
 /// A fluid whose velocity is linear in the place, `u_x = 1e-3 (1 + x + 2 y + 3 z)` in cells.
-fn linear(faces: &str) -> (Scene, ReferenceEngine) {
+fn linear(faces: &str) -> (Scene, Coupled) {
     let scene = scene(&COUETTE.replace("4, 8, 2", "4, 5, 6"), &[&format!("faces={faces}")]);
     let state =
         |at: Vec3| (1.0, Vec3::new(1e-3 * (1.0 + at.x + 2.0 * at.y + 3.0 * at.z), 0.0, 0.0));
-    let engine = ReferenceEngine::starting_from(&scene.setup, None, state).unwrap();
+    let engine = starting_from(&scene.setup, None, None, state).unwrap();
     (scene, engine)
 }
 
@@ -157,7 +157,7 @@ steps = 1
     // Half a step of the force gives g dt/2 = 6.7e-4 m/s; a sum of 19 populations rounds to 1e-16 of sound.
     let start = |changes: &[&str]| {
         let scene = scene(text, changes);
-        let engine = ReferenceEngine::new(&scene).unwrap();
+        let engine = open(&scene, None, false).unwrap();
         (box_row(&scene, &engine), scene.units.si_velocity())
     };
     let (row, unit) = start(&[]);

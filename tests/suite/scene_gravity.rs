@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::common::Budget;
-use psmrt::engine::{Engine, ReferenceEngine};
+use psmrt::engine::open;
 use psmrt::estimate::warnings;
 use psmrt::output::records::load_rows;
 use psmrt::scene::Scene;
@@ -136,7 +136,7 @@ fn balance_where_something_holds_up_the_grains_is_refused_with_a_remedy() {
 fn force_and_displaced_force_of_a_record_of_loads_add_up_to_the_driving_force() {
     let mut budget = Budget::oracle(600_000);
     let scene = scene(ARRAY);
-    let mut engine = ReferenceEngine::new(&scene).unwrap();
+    let mut engine = open(&scene, None, false).unwrap();
     budget.spend(1000 * 512);
     engine.step(1000).unwrap();
     let rows = load_rows(&scene, &engine);

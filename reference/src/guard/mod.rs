@@ -78,6 +78,12 @@ impl Guard {
 
     /// Looks at every cell. Errors at the first that is broken.
     pub fn look_now(&mut self, setup: &Setup, f: &[Populations], step: u64) -> Result<(), Stopped> {
+        let sight = self.sight(f);
+        self.judge(setup, step, &sight)
+    }
+
+    /// What a look at every cell sees, up to the first that is broken.
+    pub fn sight(&self, f: &[Populations]) -> Sight {
         let (mut mass, mut max_speed) = (0.0, 0.0_f64);
         let mut broken = None;
         for (cell, f) in f.iter().enumerate() {
@@ -88,8 +94,7 @@ impl Guard {
                 break;
             }
         }
-        let mean_density = mass / f.len() as f64;
-        self.judge(setup, step, &Sight { mean_density, max_speed, broken })
+        Sight { mean_density: mass / f.len() as f64, max_speed, broken }
     }
 
     /// What is wrong with a cell, if anything is.

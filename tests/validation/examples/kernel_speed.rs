@@ -10,7 +10,8 @@
 
 use std::sync::Arc;
 
-use psmrt::kernel::{Beginning, Gpu, Kernel, KernelError, Spent};
+use psmrt::kernel::{Gpu, Kernel, KernelError};
+use psmrt::machine::{Beginning, Spent};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::Vec3;

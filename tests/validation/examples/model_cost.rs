@@ -17,8 +17,7 @@ use std::fmt::Write;
 use std::process::Command;
 use std::sync::Arc;
 
-use psmrt::engine::EngineName;
-use psmrt::engine::{Engine, KernelEngine, ReferenceEngine};
+use psmrt::engine::{Coupled, EngineName, starting_from};
 use psmrt::kernel::Gpu;
 use psmrt::scene::FreePart;
 use psmrt_reference::collision::Collision;
@@ -94,7 +93,7 @@ fn main() -> Result<(), Failure> {
             let (mut mine, mut theirs) = (f64::INFINITY, f64::INFINITY);
             // The first pair warms up: shaders compile at their first use.
             for number in 0..=repeats {
-                let pair = [time(other.as_mut(), base)?, time(this.as_mut(), model)?];
+                let pair = [time(&mut other, base)?, time(&mut this, model)?];
                 if number > 0 {
                     theirs = theirs.min(pair[0]);
                     mine = mine.min(pair[1]);
@@ -121,7 +120,7 @@ fn main() -> Result<(), Failure> {
 }
 
 /// Seconds of the processor that a slice takes, with what is recorded.
-fn time(engine: &mut dyn Engine, model: &Model) -> Result<f64, Failure> {
+fn time(engine: &mut Coupled, model: &Model) -> Result<f64, Failure> {
     let start = processor_seconds()?;
     let batch = model.record_every.unwrap_or(SLICE);
     for _ in 0..SLICE / batch {
@@ -178,12 +177,12 @@ fn bytes_here(engine: &str, model: &str, side: usize) -> Result<(), Failure> {
     Ok(())
 }
 
-fn start(engine: EngineName, gpu: &Arc<Gpu>, model: &Model) -> Result<Box<dyn Engine>, Failure> {
+fn start(engine: EngineName, gpu: &Arc<Gpu>, model: &Model) -> Result<Coupled, Failure> {
     let state = |x: Vec3| (1.0, Vec3::new(1e-3 * (0.2 * x.y).sin(), 0.0, 0.0));
     let (setup, free) = (&model.setup, model.free.as_ref());
     Ok(match engine {
-        EngineName::Reference => Box::new(ReferenceEngine::starting_from(setup, free, state)?),
-        EngineName::Wgpu => Box::new(KernelEngine::starting_from(setup, free, gpu, state)?),
+        EngineName::Reference => starting_from(setup, free, None, state)?,
+        EngineName::Wgpu => starting_from(setup, free, Some(gpu), state)?,
     })
 }
 

@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 use super::{Case, CaseError, Settled};
 use psmrt::checkpoint;
-use psmrt::engine::{self, Engine, EngineName};
+use psmrt::engine::{self, Coupled, EngineName};
 use psmrt::kernel::Gpu;
 use psmrt::output::folder::RunFolder;
 use psmrt::run::{End, Watcher, run, set_aside};
@@ -40,7 +40,7 @@ pub struct Finished {
     /// The scene.
     pub scene: Scene,
     /// The engine at the end.
-    pub engine: Box<dyn Engine>,
+    pub engine: Coupled,
     /// How steady it was, if it was run until it was.
     pub settled: Option<Settled>,
     folder: PathBuf,
@@ -146,7 +146,7 @@ impl Bench {
     pub fn run_on(
         &mut self,
         scene: Scene,
-        mut engine: Box<dyn Engine>,
+        mut engine: Coupled,
     ) -> Result<(Finished, End), CaseError> {
         let (folder, vanishing) = match &self.kept {
             Some(kept) => (kept.join(run_name(&scene)), None),
@@ -158,7 +158,7 @@ impl Bench {
         fs::create_dir_all(&folder)?;
         let held = RunFolder::open(&folder)?;
         let resumed = match checkpoint::list(&folder)?.last() {
-            Some(newest) => Some(checkpoint::load(newest, &held, &scene, engine.as_mut())?),
+            Some(newest) => Some(checkpoint::load(newest, &held, &scene, &mut engine)?),
             None => {
                 set_aside(&scene, &held)?;
                 None
@@ -166,7 +166,7 @@ impl Bench {
         };
         let first = engine.steps();
         let mut watcher = (self.watcher)(&scene);
-        let end = run(&scene, engine.as_mut(), &held, resumed.as_ref(), watcher.as_mut())?;
+        let end = run(&scene, &mut engine, &held, resumed.as_ref(), watcher.as_mut())?;
         if end == End::Interrupted {
             return Err(CaseError::Interrupted);
         }

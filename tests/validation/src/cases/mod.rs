@@ -37,7 +37,7 @@ use psmrt_report::Figure;
 use thiserror::Error;
 
 use psmrt::checkpoint::CheckpointError;
-use psmrt::engine::{EngineStop, OpenError};
+use psmrt::engine::{EngineStop, StartError};
 use psmrt::kernel::KernelError;
 use psmrt::output::folder::FolderError;
 use psmrt::run::RunError;
@@ -165,7 +165,7 @@ pub enum CaseError {
     Scene(#[from] Box<SceneError>),
     /// An engine cannot take a scene.
     #[error(transparent)]
-    Open(#[from] OpenError),
+    Open(#[from] StartError),
     /// The device cannot be had.
     #[error(transparent)]
     Device(#[from] KernelError),

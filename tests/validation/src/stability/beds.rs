@@ -15,8 +15,7 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Search};
-use psmrt::engine::Engine;
-use psmrt::engine::EngineName;
+use psmrt::engine::{Coupled, EngineName};
 
 /// Edge of the cubic cell of the array.
 const SIDE: usize = 16;
@@ -164,12 +163,12 @@ fn by_force(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
         .with_body_force(along(gradient(speed, nu)))
         .with_solids(phase(line, &[corner, corner.add_scalar(0.5 * SIDE as f64)]));
     let mut engine = lab.engine(line, &setup, None, |_| (1.0, along(speed)))?;
-    let flux = |engine: &dyn Engine| {
+    let flux = |engine: &Coupled| {
         let means = engine.box_means();
         means.mass_flux.x / means.density
     };
     let steps = within(10.0 / speed, 400, 1000);
-    let [before, after] = ends(engine.as_mut(), steps, flux)?;
+    let [before, after] = ends(&mut engine, steps, flux)?;
     // K = G V/(n 6π ν a U)
     let is_judged = reynolds(speed, nu) <= CREEPING && is_steady(before, after);
     let found = Found::judged(steps, (speed / after - 1.0).abs(), DRAG).if_judged(is_judged);
@@ -205,7 +204,7 @@ fn by_inlet(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
         cells.map(|cell| setup.domain.index(cell)).collect()
     };
     let planes = [LEAD / 2, cells[0] - LEAD / 2 - 1].map(plane);
-    let drop = |engine: &dyn Engine| {
+    let drop = |engine: &Coupled| {
         let mean = |numbers: &[usize]| {
             let sum: f64 = engine.cells(numbers).iter().map(|cell| cell.density).sum();
             sum / numbers.len() as f64
@@ -214,7 +213,7 @@ fn by_inlet(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
         (mean(&planes[0]) - mean(&planes[1])) / 3.0
     };
     let steps = within(30.0 / speed, 600, 1500);
-    let [before, after] = ends(engine.as_mut(), steps, drop)?;
+    let [before, after] = ends(&mut engine, steps, drop)?;
     let expected = gradient(speed, nu) * (2 * SIDE) as f64;
     let error = (after / expected - 1.0).abs();
     let is_judged = reynolds(speed, nu) <= CREEPING && is_steady(before, after);
@@ -224,9 +223,9 @@ fn by_inlet(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
 
 /// What is observed after three quarters of the steps and after all.
 fn ends(
-    engine: &mut dyn Engine,
+    engine: &mut Coupled,
     steps: u64,
-    observe: impl Fn(&dyn Engine) -> f64,
+    observe: impl Fn(&Coupled) -> f64,
 ) -> Result<[f64; 2], LabError> {
     go_on(engine, steps * 3 / 4)?;
     let before = observe(engine);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use psmrt_reference::coupling::{CoupledStop, CouplingError};
+use psmrt_reference::coupling::CoupledStop;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::guard::{GuardSettings, Symptom};
@@ -11,8 +11,7 @@ use psmrt_reference::setup::Setup;
 
 use super::start::populations;
 use super::{LabError, Line};
-use psmrt::engine::EngineName;
-use psmrt::engine::{Engine, EngineStop, KernelEngine, ReferenceEngine};
+use psmrt::engine::{Coupled, EngineName, EngineStop, StartError, from_populations, starting_from};
 use psmrt::kernel::Gpu;
 use psmrt::scene::FreePart;
 
@@ -41,14 +40,12 @@ impl Lab {
         setup: &Setup,
         free: Option<&FreePart>,
         state: impl Fn(Vec3) -> (f64, Vec3),
-    ) -> Result<Box<dyn Engine>, LabError> {
+    ) -> Result<Coupled, LabError> {
         match line.engine {
-            EngineName::Reference => {
-                Ok(Box::new(ReferenceEngine::starting_from(setup, free, state)?))
-            }
+            EngineName::Reference => Ok(starting_from(setup, free, None, state)?),
             EngineName::Wgpu => {
                 let gpu = self.gpu.as_ref().ok_or(LabError::NoDevice)?;
-                Ok(Box::new(KernelEngine::starting_from(setup, free, gpu, state)?))
+                Ok(starting_from(setup, free, Some(gpu), state)?)
             }
         }
     }
@@ -59,16 +56,16 @@ impl Lab {
         line: &Line,
         setup: &Setup,
         state: impl Fn(Vec3) -> (f64, Vec3),
-    ) -> Result<Box<dyn Engine>, LabError> {
+    ) -> Result<Coupled, LabError> {
         let domain = &setup.domain;
         let centre = |cell| domain.centre(domain.coordinates(cell));
         let states: Vec<_> = (0..domain.cell_count()).map(|cell| state(centre(cell))).collect();
         let f = populations(&setup.collision, domain.cells(), &states)?;
         match line.engine {
-            EngineName::Reference => Ok(Box::new(ReferenceEngine::from_populations(setup, f)?)),
+            EngineName::Reference => Ok(from_populations(setup, None, f)?),
             EngineName::Wgpu => {
                 let gpu = self.gpu.as_ref().ok_or(LabError::NoDevice)?;
-                Ok(Box::new(KernelEngine::from_populations(setup, gpu, &f)?))
+                Ok(from_populations(setup, Some(gpu), f)?)
             }
         }
     }
@@ -76,7 +73,7 @@ impl Lab {
 
 /// Goes on to step `end`. Errors with [`LabError::Stopped`] if the guard stops it or its grains cannot be
 /// moved, and otherwise if the set-up is refused or the device fails.
-pub(super) fn go_on(engine: &mut dyn Engine, end: u64) -> Result<(), LabError> {
+pub(super) fn go_on(engine: &mut Coupled, end: u64) -> Result<(), LabError> {
     let left = end.saturating_sub(engine.steps());
     match engine.step(left).and_then(|()| engine.look()) {
         Ok(()) => Ok(()),
@@ -90,7 +87,7 @@ pub(super) fn go_on(engine: &mut dyn Engine, end: u64) -> Result<(), LabError> {
             Err(LabError::Stopped { steps: stop.step, how })
         }
         Err(EngineStop::Broken(CoupledStop::Grains(error @ GrainError::Substep(_)))) => {
-            Err(LabError::Oracle(CouplingError::Grains(error)))
+            Err(LabError::Start(StartError::Grains(error)))
         }
         Err(EngineStop::Broken(CoupledStop::Grains(_))) => {
             Err(LabError::Stopped { steps: engine.steps(), how: "grains" })

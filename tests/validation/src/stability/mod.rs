@@ -29,9 +29,7 @@ use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::rates::RateError;
 use thiserror::Error;
 
-use psmrt::engine::EngineName;
-use psmrt::engine::{EngineStop, StartError};
-use psmrt_reference::coupling::CouplingError;
+use psmrt::engine::{EngineName, EngineStop, StartError};
 
 pub use lab::Lab;
 pub use psmrt::stability::Outcome;
@@ -141,8 +139,7 @@ impl Found {
             |outcome, steps, how| Found { outcome, steps, error: None, reynolds: None, how };
         match error {
             LabError::Stopped { steps, how } => Ok(found(Outcome::Stopped, steps, Some(how))),
-            LabError::Oracle(CouplingError::Grains(_))
-            | LabError::Kernel(StartError::Grains(_)) => Ok(found(Outcome::Refused, 0, None)),
+            LabError::Start(StartError::Grains(_)) => Ok(found(Outcome::Refused, 0, None)),
             error => Err(error),
         }
     }
@@ -168,12 +165,9 @@ pub enum LabError {
     /// The contact law.
     #[error(transparent)]
     Law(#[from] psmrt_reference::grains::law::LawError),
-    /// The oracle cannot take the set-up.
+    /// The engine cannot take the set-up.
     #[error(transparent)]
-    Oracle(#[from] CouplingError),
-    /// The kernel cannot.
-    #[error(transparent)]
-    Kernel(#[from] StartError),
+    Start(#[from] StartError),
     /// The device has failed.
     #[error(transparent)]
     Engine(#[from] EngineStop),

@@ -25,8 +25,7 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Search};
-use psmrt::engine::Engine;
-use psmrt::engine::EngineName;
+use psmrt::engine::{Coupled, EngineName};
 use psmrt::scene::FreePart;
 
 const SIDE: usize = 12;
@@ -94,12 +93,12 @@ fn run(lab: &Lab, line: &Line, ratio: f64) -> Result<Found, LabError> {
         |x: Vec3| (1.0, if (x - centre).norm() < RADIUS { velocity } else { Vec3::zeros() });
     let mut engine = lab.engine(line, &setup, Some(&free), state)?;
     let all: Vec<usize> = (0..setup.domain.cell_count()).collect();
-    let momentum = |engine: &dyn Engine, now: Vec3, before: Vec3| -> Vec3 {
+    let momentum = |engine: &Coupled, now: Vec3, before: Vec3| -> Vec3 {
         let fluid: Vec3 = engine.cells(&all).iter().map(|cell| cell.density * cell.velocity).sum();
         // Σ j + m_s v_n - m_f v_(n-1), the last where it is given back (`coupling`)
         fluid + grain.mass * now - if is_lagged { fluid_mass * before } else { Vec3::zeros() }
     };
-    let at_start = momentum(engine.as_ref(), velocity, velocity);
+    let at_start = momentum(&engine, velocity, velocity);
     let nu = viscosity(line.tau);
     let masses = [grain.mass, all.len() as f64];
     let reduced = masses[0] * masses[1] / (masses[0] + masses[1]);
@@ -107,11 +106,11 @@ fn run(lab: &Lab, line: &Line, ratio: f64) -> Result<Found, LabError> {
     let mut error = 0.0_f64;
     while engine.steps() < STEPS {
         let next = engine.steps() + EVERY;
-        go_on(engine.as_mut(), next - 1)?;
-        let before = velocity_of(engine.as_ref());
-        go_on(engine.as_mut(), next)?;
-        let now = velocity_of(engine.as_ref());
-        let gone = (momentum(engine.as_ref(), now, before) - at_start).norm() / grain.mass;
+        go_on(&mut engine, next - 1)?;
+        let before = velocity_of(&engine);
+        go_on(&mut engine, next)?;
+        let now = velocity_of(&engine);
+        let gone = (momentum(&engine, now, before) - at_start).norm() / grain.mass;
         error = error.max(gone / SPEED).max(now.norm() / SPEED - 1.0);
         if next as f64 > 5.0 * settling {
             let mass = all.len() as f64 + grain.mass - if is_lagged { fluid_mass } else { 0.0 };
@@ -121,7 +120,7 @@ fn run(lab: &Lab, line: &Line, ratio: f64) -> Result<Found, LabError> {
     Ok(Found::judged(STEPS, error, ALLOWED))
 }
 
-fn velocity_of(engine: &dyn Engine) -> Vec3 {
+fn velocity_of(engine: &Coupled) -> Vec3 {
     engine.solids().first().map_or_else(Vec3::zeros, |solid| solid.velocity)
 }
 

@@ -19,8 +19,7 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use super::lab::{Lab, go_on};
 use super::spectral::vorticity;
 use super::{Flow, Found, LabError, Line, Search};
-use psmrt::engine::Engine;
-use psmrt::engine::EngineName;
+use psmrt::engine::{Coupled, EngineName};
 
 /// Largest velocities at the start, cells per step.
 const SPEEDS: &[f64] = &[0.003, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.5];
@@ -132,7 +131,7 @@ fn budget(
     let nu = viscosity(line.tau);
     let mut engine = lab.flowing(line, &setup, state)?;
     let all: Vec<usize> = (0..setup.domain.cell_count()).collect();
-    let look = |engine: &dyn Engine| {
+    let look = |engine: &Coupled| {
         let u: Vec<Vec3> = engine.cells(&all).iter().map(|cell| cell.velocity).collect();
         let n = u.len() as f64;
         let energy = u.iter().map(|u| 0.5 * u.norm_squared()).sum::<f64>() / n;
@@ -140,7 +139,7 @@ fn budget(
         let largest = squares.iter().copied().fold(0.0, f64::max).sqrt();
         (energy, squares.iter().sum::<f64>() / n, largest)
     };
-    let (first, mut enstrophy, sharpest) = look(engine.as_ref());
+    let (first, mut enstrophy, sharpest) = look(&engine);
     // Often enough that the energy falls by less than a tenth from look to look, and that the flow
     // moves by less than a cell: E'/E = -2 ν Ω/(2 E).
     let rate = nu * enstrophy / first;
@@ -148,8 +147,8 @@ fn budget(
     let (mut lost, mut error, mut now) = (0.0, 0.0_f64, 0);
     while now < steps {
         let end = (now + every).min(steps);
-        go_on(engine.as_mut(), end)?;
-        let (energy, next, largest) = look(engine.as_ref());
+        go_on(&mut engine, end)?;
+        let (energy, next, largest) = look(&engine);
         lost += nu * 0.5 * (enstrophy + next) * (end - now) as f64;
         (enstrophy, now) = (next, end);
         error = error.max((first - energy - lost).abs() / first);
@@ -158,7 +157,7 @@ fn budget(
         }
         if energy < 1e-6 * first {
             // What is left is at rest, and no round-off of it is judged.
-            go_on(engine.as_mut(), steps)?;
+            go_on(&mut engine, steps)?;
             return Ok(Found::judged(steps, error, ENERGY));
         }
     }
@@ -181,7 +180,7 @@ fn abc(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
     let rate = viscosity(line.tau) * k * k;
     let steps = within(48.0 / speed, 300, 800);
     let judged_at = within((1.0 / rate).min(3.0 / (speed * k)), 1, steps);
-    go_on(engine.as_mut(), judged_at)?;
+    go_on(&mut engine, judged_at)?;
     let all: Vec<usize> = (0..setup.domain.cell_count()).collect();
     let left = (-rate * judged_at as f64).exp();
     let (mut off, mut whole) = (0.0, 0.0);
@@ -190,6 +189,6 @@ fn abc(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
         off += (cell.velocity - exact).norm_squared();
         whole += exact.norm_squared();
     }
-    go_on(engine.as_mut(), steps)?;
+    go_on(&mut engine, steps)?;
     Ok(Found::judged(steps, (off / whole).sqrt(), DISTANCE))
 }

@@ -123,7 +123,7 @@ fn contact(lab: &Lab, line: &Line, duration: f64) -> Result<Found, LabError> {
         },
     };
     let mut engine = lab.engine(line, &setup, Some(&free), |_| (1.0, Vec3::zeros()))?;
-    go_on(engine.as_mut(), STEPS)?;
+    go_on(&mut engine, STEPS)?;
     let solids = engine.solids();
     let (height, fall) = (solids[0].centre.z, solids[0].velocity.z.abs());
     // δ = W/k,  W = (1 - 1/s) m g
@@ -155,7 +155,7 @@ fn overlap(lab: &Lab, line: &Line, overlap: f64) -> Result<Found, LabError> {
     let mut error = 0.0_f64;
     while engine.steps() < STEPS {
         let next = engine.steps() + 1;
-        go_on(engine.as_mut(), next)?;
+        go_on(&mut engine, next)?;
         for solid in engine.solids() {
             error = error.max(solid.velocity.norm() / fastest - 1.0);
         }
@@ -190,7 +190,7 @@ fn crowd(lab: &Lab, line: &Line, count: f64) -> Result<Found, LabError> {
                 ..SolidPhase::default()
             });
         let mut engine = lab.engine(line, &setup, None, |_| (1.0, Vec3::zeros()))?;
-        go_on(engine.as_mut(), STEPS)?;
+        go_on(&mut engine, STEPS)?;
         Ok(engine)
     };
     let mut engine = run(number)?;
@@ -217,7 +217,7 @@ fn crowd(lab: &Lab, line: &Line, count: f64) -> Result<Found, LabError> {
     const MORE: u64 = 20;
     let mut taken = 0.0;
     for step in 1..=MORE {
-        go_on(engine.as_mut(), STEPS + step)?;
+        go_on(&mut engine, STEPS + step)?;
         taken += engine.loads().iter().map(|load| load.force.x).sum::<f64>();
     }
     let gained = total(&engine.cells(&all)) - total(&before);

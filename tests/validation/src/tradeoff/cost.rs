@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::cases::{Bench, CaseError};
-use psmrt::engine::{self, Engine};
+use psmrt::engine::{self, Coupled};
 use psmrt::kernel::Gpu;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
@@ -42,7 +42,7 @@ pub fn kind(flow: Flow) -> &'static str {
 pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError> {
     struct Entry {
         words: [&'static str; 3],
-        engine: Box<dyn Engine>,
+        engine: Coupled,
         cells: f64,
         best: f64,
     }
@@ -54,7 +54,7 @@ pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError
             changes.extend(preset_changes(collision));
             let scene = bench.load(scene, &changes)?;
             let cells = scene.setup.domain.cell_count() as f64;
-            let mut add = |name, engine: Box<dyn Engine>| {
+            let mut add = |name, engine: Coupled| {
                 let words = [name, collision.word(), kind];
                 entries.push(Entry { words, engine, cells, best: f64::INFINITY });
             };

@@ -7,9 +7,8 @@ use std::time::Instant;
 use psmrt_reference::lattice::viscosity;
 
 use super::setting::{Literature, Setting};
-use super::storage::RoundedEngine;
+use super::storage::rounded;
 use crate::cases::{Bench, CaseError, Finished};
-use psmrt::engine::Engine;
 use psmrt::exact::Comparison;
 use psmrt::kernel::Gpu;
 use psmrt::output::records::profile_rows;
@@ -65,9 +64,8 @@ impl Runner {
         let start = Instant::now();
         let ended = if emulated {
             let scene = bench.load(&scene, &changes)?;
-            let engine = RoundedEngine::new(&scene, parameters.storage)
+            let engine = rounded(&scene, parameters.storage)
                 .map_err(|error| CaseError::table(error.to_string()))?;
-            let engine: Box<dyn Engine> = Box::new(engine);
             bench.run_on(scene, engine)
         } else {
             bench.run(&scene, &changes)
@@ -118,7 +116,7 @@ fn error(parameters: &Parameters, drag: f64, run: &Finished) -> Result<f64, Case
         Flow::Poiseuille => {
             let exact = run.scene.exact.as_ref().ok_or_else(|| missing("no exact solution"))?;
             let middle = middle(&setup.domain);
-            let profile = profile_rows(&run.scene, run.engine.as_ref(), exact.across, middle);
+            let profile = profile_rows(&run.scene, &run.engine, exact.across, middle);
             let along: Vec<f64> = profile.iter().map(|row| row[2 + exact.along]).collect();
             Ok(Comparison::new(exact, &along).relative_l2)
         }

@@ -5,41 +5,31 @@
 
 use std::io::{self, Read, Write};
 
-use psmrt_reference::coupling::CoupledStop;
-use psmrt_reference::directions::{C, Q};
-use psmrt_reference::forcing::forced_velocity;
-use psmrt_reference::grains::system::GrainSystem;
-use psmrt_reference::lattice::{Vec3, density, momentum};
-use psmrt_reference::setup::SetupError;
+use psmrt_reference::directions::C;
+use psmrt_reference::guard::{Guard, Sight};
+use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
-use psmrt_reference::solver::Solver;
 
-use psmrt::engine::{BoxMeans, CellState, Engine, EngineStop};
+use psmrt::engine::{BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine};
 use psmrt::scene::Scene;
 use psmrt::tradeoff::parameters::Storage;
 
-/// The oracle with populations rounded after every step; fluid and held grains only.
+/// The oracle with populations rounded after every step.
 #[derive(Debug)]
-pub struct RoundedEngine {
-    solver: Solver,
+struct RoundedEngine {
+    inner: ReferenceEngine,
     storage: Storage,
+}
+
+/// The scene at its start with populations rounded after every step; its grains are held. Errors if the oracle
+/// refuses the set-up.
+pub fn rounded(scene: &Scene, storage: Storage) -> Result<Coupled, SetupError> {
+    let inner = ReferenceEngine::new(scene)?;
+    Ok(Coupled::of_fluid(Box::new(RoundedEngine { inner, storage })))
 }
 
 /// What half precision is scaled by, so that small deviations keep all their digits.
 const HALF_SCALE: f64 = 16384.0; // 2^14
-
-impl RoundedEngine {
-    /// The scene at its start. Errors if the oracle refuses the set-up.
-    pub fn new(scene: &Scene, storage: Storage) -> Result<Self, SetupError> {
-        let velocity = scene.initial_velocity;
-        let solver = Solver::starting_from(scene.setup.clone(), |_| (1.0, velocity))?;
-        Ok(RoundedEngine { solver, storage })
-    }
-
-    fn body_force(&self) -> Vec3 {
-        self.solver.setup().body_force.unwrap_or_else(Vec3::zeros)
-    }
-}
 
 /// A population of direction `a` after it was kept.
 fn kept(f: f64, a: usize, storage: Storage) -> f64 {
@@ -75,79 +65,58 @@ pub fn half(value: f64) -> f64 {
     if rounded.abs() > 65504.0 { f64::INFINITY.copysign(value) } else { rounded }
 }
 
-impl Engine for RoundedEngine {
+impl FluidEngine for RoundedEngine {
     fn name(&self) -> &'static str {
-        "reference"
+        self.inner.name()
     }
 
-    fn steps(&self) -> u64 {
-        self.solver.steps()
+    fn setup(&self) -> &Setup {
+        self.inner.setup()
     }
 
-    fn step(&mut self, count: u64) -> Result<(), EngineStop> {
-        for _ in 0..count {
-            self.solver.advance_fluid().map_err(CoupledStop::from)?;
-            let mut f = self.solver.populations().to_vec();
-            for populations in &mut f {
-                for a in 0..Q {
-                    populations[a] = kept(populations[a], a, self.storage);
-                }
-            }
-            let (setup, memory) = (self.solver.setup().clone(), self.solver.memory());
-            self.solver = Solver::going_on_from(setup, f, memory)
-                .unwrap_or_else(|error| unreachable!("the set-up ran before: {error}"));
+    fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), DeviceError> {
+        self.inner.place_solids(solids)
+    }
+
+    fn advance(&mut self, steps: u64, with_loads: bool) -> Result<(), DeviceError> {
+        for _ in 0..steps {
+            self.inner.advance(1, with_loads)?;
+            let changed = self.inner.change_populations(|f, a| kept(f, a, self.storage));
+            changed.map_err(DeviceError::new)?;
         }
         Ok(())
     }
 
-    fn look(&mut self) -> Result<(), EngineStop> {
-        Ok(self.solver.check_now().map_err(CoupledStop::from)?)
+    fn loads(&self) -> Result<Vec<Load>, DeviceError> {
+        self.inner.loads()
     }
 
-    fn box_means(&self) -> BoxMeans {
-        let (f, g) = (self.solver.populations(), self.body_force());
-        let n = f.len() as f64;
-        let speed = |f| forced_velocity(density(f), &momentum(f), &g).norm();
-        BoxMeans {
-            density: f.iter().map(density).sum::<f64>() / n,
-            mass_flux: self.solver.mass_flux_field().iter().sum::<Vec3>() / n,
-            max_speed: f.iter().map(speed).fold(0.0, f64::max),
-        }
+    fn displaced(&self) -> Result<Vec<f64>, DeviceError> {
+        self.inner.displaced()
     }
 
-    fn cells(&self, numbers: &[usize]) -> Vec<CellState> {
-        let g = self.body_force();
-        let state = |&cell: &usize| {
-            let f = &self.solver.populations()[cell];
-            let velocity = forced_velocity(density(f), &momentum(f), &g);
-            let coverage = self.solver.coverage();
-            let solid_fraction = coverage.map_or(0.0, |coverage| coverage.solid_fraction(cell));
-            CellState { density: density(f), velocity, solid_fraction }
-        };
-        numbers.iter().map(state).collect()
+    fn means(&self) -> Result<BoxMeans, DeviceError> {
+        self.inner.means()
     }
 
-    fn solids(&self) -> Vec<Solid> {
-        self.solver.setup().solid_phase.as_ref().map_or_else(Vec::new, |p| p.solids.clone())
+    fn sight(&self, guard: &Guard) -> Result<Sight, DeviceError> {
+        self.inner.sight(guard)
     }
 
-    fn free_grains(&self) -> Option<&GrainSystem> {
-        None
+    fn cells(&self, numbers: &[usize]) -> Result<Vec<CellState>, DeviceError> {
+        self.inner.cells(numbers)
     }
 
-    fn loads(&self) -> Vec<Load> {
-        self.solver.loads().to_vec()
+    fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.inner.save(out)
     }
 
-    fn displaced(&self) -> Vec<f64> {
-        self.solver.displaced()
-    }
-
-    fn save(&self, _: &mut dyn Write) -> io::Result<()> {
-        Err(io::Error::other("runs of the trade-off study cannot be saved"))
-    }
-
-    fn load(&mut self, _: &mut dyn Read) -> io::Result<()> {
-        Err(io::Error::other("runs of the trade-off study cannot be loaded"))
+    fn load(
+        &mut self,
+        from: &mut dyn Read,
+        solids: Vec<Solid>,
+        loads: Vec<Load>,
+    ) -> io::Result<()> {
+        self.inner.load(from, solids, loads)
     }
 }

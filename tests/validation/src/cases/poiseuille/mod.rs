@@ -117,7 +117,7 @@ fn row(
         return Err(CaseError::table(format!("{scene} has no exact solution")));
     };
     let middle = middle(&run.scene.setup.domain);
-    let profile = profile_rows(&run.scene, run.engine.as_ref(), exact.across, middle);
+    let profile = profile_rows(&run.scene, &run.engine, exact.across, middle);
     let along: Vec<f64> = profile.iter().map(|row| row[2 + exact.along]).collect();
     let found = Comparison::new(exact, &along);
     // The parabola that is a slip u_s too fast vanishes δ outside:  δ (H + δ) a/(2 ν) = u_s

@@ -1,0 +1,241 @@
+//! A fluid engine with all that is the same above every one: free grains and prescribed motion, the guard,
+//! the count of steps, and where the time goes.
+//!
+//! A step of fluid and grains: the fluid advances with the solids where they are; its loads move the free
+//! grains; the fluid's solids are put where the grains are now.
+
+use std::cell::RefCell;
+
+use psmrt_reference::coupling::{CoupledStop, FreeGrains, Gravity, with_displaced};
+use psmrt_reference::grains::setup::GrainError;
+use psmrt_reference::grains::system::GrainSystem;
+use psmrt_reference::guard::Guard;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::setup::Setup;
+use psmrt_reference::solids::{Load, Solid};
+
+use super::{BoxMeans, CellState, DeviceError, EngineStop, FluidEngine};
+use crate::machine::{Beginning, Spent};
+use crate::scene::FreePart;
+
+/// A grain further off than cells can be numbered is as lost as one that is nowhere: between two looks of the
+/// guard a load that has broken throws a light grain so far.
+const FARTHEST: f64 = 2_147_483_648.0;
+
+/// Where the time has gone.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Profile {
+    /// Steps that it covers.
+    pub steps: u64,
+    /// The parts of a step.
+    pub parts: Vec<(&'static str, Spent)>,
+}
+
+/// A fluid and the solids in it.
+#[derive(Debug)]
+pub struct Coupled {
+    pub(super) fluid: Box<dyn FluidEngine>,
+    pub(super) grains: Option<Grains>,
+    pub(super) guard: Guard,
+    pub(super) steps: u64,
+    /// The first failure while something was observed.
+    failure: RefCell<Option<DeviceError>>,
+    profile: Option<MovingProfile>,
+}
+
+/// Free grains, and what the scene says of how they move.
+#[derive(Debug)]
+pub(super) struct Grains {
+    pub(super) moving: FreeGrains,
+    pub(super) part: FreePart,
+}
+
+/// The part of a profile that fluid engines know nothing of.
+#[derive(Debug, Default)]
+struct MovingProfile {
+    steps: u64,
+    grains: Spent,
+}
+
+impl Coupled {
+    /// A fluid whose solids, if there are any, are not free.
+    pub fn of_fluid(fluid: Box<dyn FluidEngine>) -> Self {
+        Self::new(fluid, None)
+    }
+
+    pub(super) fn new(fluid: Box<dyn FluidEngine>, grains: Option<Grains>) -> Self {
+        let guard = Guard::new(fluid.setup().guard);
+        let failure = RefCell::default();
+        Coupled { fluid, grains, guard, steps: 0, failure, profile: None }
+    }
+
+    /// The name of the fluid engine, as `--engine` spells it.
+    pub fn name(&self) -> &'static str {
+        self.fluid.name()
+    }
+
+    /// What it computes on besides the processor, if it does.
+    pub fn adapter(&self) -> Option<String> {
+        self.fluid.adapter()
+    }
+
+    /// Steps made so far.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The set-up, with the solids where they are now.
+    pub fn setup(&self) -> &Setup {
+        self.fluid.setup()
+    }
+
+    /// Makes `count` steps. Errors when the guard finds the state broken, a free grain cannot be moved,
+    /// or the device fails.
+    pub fn step(&mut self, count: u64) -> Result<(), EngineStop> {
+        let end = self.steps + count;
+        let is_free = self.grains.is_some();
+        let phase = self.fluid.setup().solid_phase.as_ref();
+        let moves = is_free || phase.is_some_and(|phase| phase.solids.iter().any(Solid::moves));
+        let interval = self.fluid.setup().guard.interval.max(1);
+        while self.steps < end {
+            if self.guard.is_due(self.steps) {
+                self.look()?;
+            }
+            let next_look = (self.steps / interval + 1) * interval;
+            let now = if moves { 1 } else { end.min(next_look) - self.steps };
+            let is_last = self.steps + now == end;
+            self.fluid.advance(now, is_free || is_last)?;
+            self.steps += now;
+            if let Some(profile) = &mut self.profile {
+                profile.steps += now;
+            }
+            if moves {
+                self.move_solids()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves the solids after a step, free or as prescribed.
+    fn move_solids(&mut self) -> Result<(), EngineStop> {
+        let solids = if self.grains.is_some() { self.moved_grains()? } else { self.towed() };
+        Ok(self.fluid.place_solids(solids)?)
+    }
+
+    fn towed(&self) -> Vec<Solid> {
+        let mut solids = self.solids();
+        for solid in solids.iter_mut().filter(|solid| solid.moves()) {
+            solid.centre += solid.velocity;
+        }
+        solids
+    }
+
+    /// Moves the free grains under the loads of the last step.
+    fn moved_grains(&mut self) -> Result<Vec<Solid>, EngineStop> {
+        let Some(Grains { moving, .. }) = &mut self.grains else { return Ok(Vec::new()) };
+        let loads = match (moving.settings().gravity, self.fluid.setup().body_force) {
+            (Some(Gravity::Balanced { .. }), Some(g)) => {
+                let (loads, displaced) = self.fluid.loads_with_displaced()?;
+                with_displaced(&loads, &displaced, g)
+            }
+            _ => self.fluid.loads()?,
+        };
+        let since = self.profile.is_some().then(Beginning::now);
+        moving.step(&loads).map_err(CoupledStop::from)?;
+        let solids = moving.solids();
+        if let (Some(profile), Some(since)) = (&mut self.profile, since) {
+            profile.grains.add(since);
+        }
+        match solids.iter().position(|solid| solid.centre.amax() > FARTHEST) {
+            None => Ok(solids),
+            Some(grain) => {
+                let position = solids[grain].centre.into();
+                Err(CoupledStop::Grains(GrainError::NotFinite { grain, position }).into())
+            }
+        }
+    }
+
+    /// Looks for a broken state now, whatever the step. Errors as [`Self::step`].
+    pub fn look(&mut self) -> Result<(), EngineStop> {
+        let sight = self.fluid.sight(&self.guard)?;
+        let judged = self.guard.judge(self.fluid.setup(), self.steps, &sight);
+        let explained = judged.map_err(|stopped| match &self.grains {
+            Some(Grains { moving, .. }) => moving.explain(stopped),
+            None => stopped,
+        });
+        Ok(explained.map_err(CoupledStop::from)?)
+    }
+
+    /// Errors if the device has failed while something was observed: what was seen then is not a
+    /// number.
+    pub fn still_works(&self) -> Result<(), EngineStop> {
+        match self.failure.borrow().clone() {
+            Some(error) => Err(error.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// What was observed; a failure is kept for [`Self::still_works`].
+    fn observed<T>(&self, found: Result<T, DeviceError>) -> Option<T> {
+        found.map_err(|error| self.failure.borrow_mut().get_or_insert(error).clone()).ok()
+    }
+
+    /// Keeps from now on where the time goes, if the fluid engine can. A device is then waited for after each
+    /// part of a step, so that each gets its own time.
+    pub fn keep_profile(&mut self) {
+        self.fluid.keep_times();
+        self.profile = Some(MovingProfile::default());
+    }
+
+    /// Where the time has gone, if that is kept.
+    pub fn profile(&self) -> Option<Profile> {
+        let moving = self.profile.as_ref()?;
+        let mut parts = self.fluid.times();
+        if parts.is_empty() {
+            return None;
+        }
+        parts.push(("grains", moving.grains));
+        Some(Profile { steps: moving.steps, parts })
+    }
+
+    /// Means over the domain.
+    pub fn box_means(&self) -> BoxMeans {
+        let broken =
+            BoxMeans { density: f64::NAN, mass_flux: Vec3::repeat(f64::NAN), max_speed: f64::NAN };
+        self.observed(self.fluid.means()).unwrap_or(broken)
+    }
+
+    /// The state of the cells of the given numbers, in their order.
+    pub fn cells(&self, numbers: &[usize]) -> Vec<CellState> {
+        let broken = CellState {
+            density: f64::NAN,
+            velocity: Vec3::repeat(f64::NAN),
+            solid_fraction: f64::NAN,
+        };
+        self.observed(self.fluid.cells(numbers)).unwrap_or_else(|| vec![broken; numbers.len()])
+    }
+
+    /// The solids, where they are now.
+    pub fn solids(&self) -> Vec<Solid> {
+        let phase = self.fluid.setup().solid_phase.as_ref();
+        phase.map_or_else(Vec::new, |phase| phase.solids.clone())
+    }
+
+    /// All grains with their contacts, if some are free; grain number `i` is solid number `i`.
+    pub fn free_grains(&self) -> Option<&GrainSystem> {
+        self.grains.as_ref().map(|grains| grains.moving.system())
+    }
+
+    /// Force and torque of the fluid on each solid during the last step.
+    pub fn loads(&self) -> Vec<Load> {
+        let broken = Load { force: Vec3::repeat(f64::NAN), torque: Vec3::repeat(f64::NAN) };
+        self.observed(self.fluid.loads()).unwrap_or_else(|| vec![broken; self.solids().len()])
+    }
+
+    /// `Σ B_s` over the cells of each solid, where it is now, in cells: the body force does not act on the
+    /// fluid there, and is no part of the loads.
+    pub fn displaced(&self) -> Vec<f64> {
+        let found = self.observed(self.fluid.displaced());
+        found.unwrap_or_else(|| vec![f64::NAN; self.solids().len()])
+    }
+}

@@ -1,0 +1,67 @@
+//! The state of a run as bytes: the part that is the same above every fluid engine, then the fluid's own, then
+//! the free grains'.
+
+use std::io::{self, Read, Write};
+
+use psmrt_reference::coupling::FreeGrains;
+use psmrt_reference::guard::{Evidence, Guard};
+use psmrt_reference::solids::{Load, Solid};
+
+use super::bytes::{expect, put_real, put_vector, put_whole, real, vector, whole};
+use super::coupled::{Coupled, Grains};
+use super::free_state;
+
+impl Coupled {
+    /// Writes all that it needs to go on from here, bit for bit.
+    pub fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        put_whole(out, self.steps)?;
+        let Evidence { first_mean_density, last_mean_density, last_max_speed } =
+            self.guard.evidence();
+        // NaN stands for "no look yet": the guard never keeps one.
+        put_real(out, first_mean_density.unwrap_or(f64::NAN))?;
+        put_real(out, last_mean_density)?;
+        put_real(out, last_max_speed)?;
+        let (solids, loads) = (self.solids(), self.fluid.loads().map_err(io::Error::other)?);
+        put_whole(out, solids.len() as u64)?;
+        for (solid, load) in solids.iter().zip(&loads) {
+            let vectors = [&solid.centre, &solid.velocity, &solid.spin, &load.force, &load.torque];
+            vectors.into_iter().try_for_each(|vector| put_vector(out, vector))?;
+        }
+        put_whole(out, self.setup().domain.cell_count() as u64)?;
+        self.fluid.save(out)?;
+        match &self.grains {
+            Some(Grains { moving, .. }) => {
+                free_state::save(out, &moving.system().state(), moving.last_steps())
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Takes the state that [`Self::save`] wrote for the same scene. After an error it is of no use.
+    pub fn load(&mut self, from: &mut dyn Read) -> io::Result<()> {
+        self.steps = whole(from)?;
+        let evidence = Evidence {
+            first_mean_density: Some(real(from)?).filter(|density| !density.is_nan()),
+            last_mean_density: real(from)?,
+            last_max_speed: real(from)?,
+        };
+        self.guard = Guard::going_on_from(self.setup().guard, evidence);
+        let mut solids: Vec<Solid> = self.solids();
+        let mut loads = Vec::new();
+        expect(whole(from)?, solids.len(), "grains")?;
+        for solid in &mut solids {
+            (solid.centre, solid.velocity, solid.spin) =
+                (vector(from)?, vector(from)?, vector(from)?);
+            loads.push(Load { force: vector(from)?, torque: vector(from)? });
+        }
+        expect(whole(from)?, self.setup().domain.cell_count(), "cells")?;
+        self.fluid.load(from, solids, loads)?;
+        if let Some(Grains { moving, part }) = &mut self.grains {
+            let (state, last) = free_state::load(from, part)?;
+            let domain = &self.fluid.setup().domain;
+            *moving = FreeGrains::going_on_from(domain, (part.setup, state), part.settings, last)
+                .map_err(io::Error::other)?;
+        }
+        Ok(())
+    }
+}
