@@ -155,7 +155,7 @@ fn settling(quick: bool) -> Vec<Parameters> {
     let solid = narrow(&[6, 8, 12], &FEW_TAUS, &[DHumieres]);
     runs.extend(changed(&solid, |parameters| "eps".clone_into(&mut parameters.weight)));
     runs.extend(changed(&coarse, |parameters| {
-        "superposition".clone_into(&mut parameters.operator)
+        "superposition".clone_into(&mut parameters.operator);
     }));
     runs.extend(narrow(&[16], &[2.0, 1.5, 1.0, 0.8], &[DHumieres]));
     runs.extend(grid(&[16], &[2.0, 1.5], &[DHumieres]));
@@ -176,7 +176,7 @@ fn sphere_drag(quick: bool) -> Vec<Parameters> {
     runs.extend(grid(&[20], &[1.5], &[Srt, Trt]));
     runs.extend(grid(&[24], &[2.0], &[DHumieres]));
     runs.extend(changed(&coarse, |parameters| {
-        "superposition".clone_into(&mut parameters.operator)
+        "superposition".clone_into(&mut parameters.operator);
     }));
     runs.extend(grid(&[30], &[2.0, 1.5, 1.0], &[DHumieres]));
     runs.extend(grid(&[30], &[1.5], &[Srt, Trt]));
