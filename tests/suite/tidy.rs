@@ -145,6 +145,99 @@ fn nothing_points_back_to_the_validation() {
 }
 
 #[test]
+fn rooms_of_the_product_use_only_those_below_them() {
+    // Lowest first.
+    const ROOMS: [&str; 22] = [
+        "quote",
+        "machine",
+        "input",
+        "units",
+        "table",
+        "provenance",
+        "packing",
+        "exact",
+        "kernel",
+        "stability",
+        "tradeoff",
+        "scene",
+        "engine",
+        "courses",
+        "stopped_grain",
+        "output",
+        "checkpoint",
+        "run",
+        "estimate",
+        "plan",
+        "conformance",
+        "command",
+    ];
+    // Imports that still run upwards, each of which closes a circle.
+    const UPWARDS: [(&str, &str); 4] = [
+        ("scene", "output"),
+        ("output", "checkpoint"),
+        ("checkpoint", "run"),
+        ("estimate", "plan"),
+    ];
+    let height = |room: &str| ROOMS.iter().position(|known| *known == room);
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut uses = 0;
+    for path in files("src", &[".rs"]) {
+        let inside = path.strip_prefix(&src).unwrap().iter().next().unwrap().to_str().unwrap();
+        let room = inside.trim_end_matches(".rs");
+        if ["main", "lib", "build"].contains(&room) {
+            continue;
+        }
+        let own = height(room).unwrap_or_else(|| panic!("src/{inside} has no place among ROOMS"));
+        let text = text(&path);
+        let code = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+        for rest in code.flat_map(|line| line.split("crate::").skip(1)) {
+            // One name, or several in braces.
+            let names = rest.strip_prefix('{').map_or(rest, |all| all.split('}').next().unwrap());
+            for name in names.split(',') {
+                let end = |c: char| !(c.is_ascii_alphanumeric() || c == '_');
+                let used = name.trim().split(end).next().unwrap();
+                let Some(height) = height(used) else { continue };
+                assert!(
+                    height <= own || UPWARDS.contains(&(room, used)),
+                    "{} uses {used}, which stands above {room}",
+                    path.display()
+                );
+                uses += 1;
+                if !rest.starts_with('{') {
+                    break;
+                }
+            }
+        }
+    }
+    assert!(uses > 100, "only {uses} uses were found: has their form changed?");
+}
+
+#[test]
+fn the_product_embeds_no_golden_table_but_those_of_its_error_models_and_limits() {
+    // To be replaced by their coefficients.
+    const STILL: [&str; 6] = [
+        "src/plan/facts.rs",
+        "src/stability/limits.rs",
+        "src/tradeoff/cost.rs",
+        "src/tradeoff/evidence.rs",
+        "src/tradeoff/evidence_low.rs",
+        "src/tradeoff/trial.rs",
+    ];
+    for path in files("src", &[".rs"]) {
+        let text = text(&path);
+        let embeds = text
+            .split("include_")
+            .skip(1)
+            .any(|rest| rest.split(')').next().is_some_and(|call| call.contains("golden/")));
+        assert!(
+            !embeds || STILL.iter().any(|known| path.ends_with(known)),
+            "{} embeds a golden table",
+            path.display()
+        );
+    }
+}
+
+#[test]
 fn kernel_takes_from_the_reference_only_words_for_set_ups() {
     // Module, and the names that may be taken from it; none where all of it is vocabulary.
     const ALLOWED: [(&str, &[&str]); 9] = [
