@@ -81,7 +81,7 @@ impl FluidEngine for KernelEngine {
     }
 
     fn displaced(&self) -> Result<Vec<f64>, DeviceError> {
-        Ok(self.kernel.displaced())
+        Ok(self.kernel.displaced()?)
     }
 
     fn loads_with_displaced(&self) -> Result<(Vec<Load>, Vec<f64>), DeviceError> {
@@ -107,15 +107,15 @@ impl FluidEngine for KernelEngine {
 
     fn cells(&self, numbers: &[usize]) -> Result<Vec<CellState>, DeviceError> {
         let g = self.kernel.setup().body_force.unwrap_or_else(Vec3::zeros);
-        let found = self.kernel.populations(numbers)?;
-        let state = |(f, &cell): (&[f64; Q], &usize)| {
+        let found = self.kernel.states(numbers)?;
+        let state = |(f, solid_fraction): ([f64; Q], f64)| {
             let density: f64 = f.iter().sum();
             let j: Vec3 = (0..Q).map(|a| f[a] * Vec3::from(C[a].map(f64::from))).sum();
             // u = (j + G/2)/ρ
             let velocity = (j + 0.5 * g) / density;
-            CellState { density, velocity, solid_fraction: self.kernel.solid_fraction(cell) }
+            CellState { density, velocity, solid_fraction }
         };
-        Ok(found.iter().zip(numbers).map(state).collect())
+        Ok(found.into_iter().map(state).collect())
     }
 
     fn keep_times(&mut self) {

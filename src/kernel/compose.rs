@@ -57,7 +57,7 @@ pub(super) enum Work {
         /// Whether the populations are there before their collision, as at the start of a run.
         is_first: bool,
     },
-    /// Populations read out.
+    /// Populations and solid fractions read out.
     Observe,
     /// Sums over the box.
     Summary,
@@ -92,8 +92,7 @@ impl Recipe<'_> {
         let (is_in, with_loads) = match work {
             Work::Step { with_solids, with_loads } => (with_solids, with_loads),
             Work::StepListed { with_loads, .. } => (true, with_loads),
-            Work::Summary => (true, false),
-            Work::Observe => (false, false),
+            Work::Summary | Work::Observe => (true, false),
         };
         if is_in { (self.solids, with_loads) } else { (SolidData::None, false) }
     }
@@ -106,17 +105,15 @@ impl Recipe<'_> {
         let flags = self.flags(work);
         let mut text = self.constants();
         let mut add = |file: &str| text += &selected(file, &flags);
-        if steps || work == Work::Summary {
-            if solids == SolidData::Moving {
-                add(&table::reader(self.layout.store, Binding::Records, "records"));
-            }
-            if solids != SolidData::None {
-                add(include_str!("wgsl/solid_part.wgsl"));
-            }
-            if steps {
-                // A single relaxation time is a set of equal rates: a shader of its own was not faster.
-                add(include_str!("wgsl/moments.wgsl"));
-            }
+        if solids == SolidData::Moving {
+            add(&table::reader(self.layout.store, Binding::Records, "records"));
+        }
+        if solids != SolidData::None {
+            add(include_str!("wgsl/solid_part.wgsl"));
+        }
+        if steps {
+            // A single relaxation time is a set of equal rates: a shader of its own was not faster.
+            add(include_str!("wgsl/moments.wgsl"));
         }
         add(&access(&self.layout, steps));
         if listed || with_loads {

@@ -21,18 +21,12 @@ struct Touch {
     arm: Vec3,
 }
 
-/// What one solid covers, and where it was when that was listed.
-#[derive(Clone, Debug, Default)]
-struct Cover {
-    centre: Option<Vec3>,
-    touches: Vec<Touch>,
-}
-
 /// What the solids cover. The part of a cell that one solid covers is a touch; touches are numbered from
 /// 1, solid by solid. The record of a cell has the number of its first touch.
 #[derive(Clone, Debug)]
 pub(super) struct Coverage {
-    covers: Vec<Cover>,
+    /// The touches of each solid.
+    covers: Vec<Vec<Touch>>,
     /// Number of the last touch before each solid, and that of the last of all.
     starts: Vec<u32>,
     /// Per cell the number of its record; 0 for none.
@@ -57,72 +51,44 @@ pub(super) struct Tables {
 }
 
 impl Coverage {
-    pub(super) fn new(cell_count: u32) -> Self {
-        Coverage {
-            covers: Vec::new(),
+    /// What the solids of `phase` cover where they are.
+    pub(super) fn of(domain: &Domain, phase: &SolidPhase) -> Self {
+        let touches_of = |solid: &Solid| {
+            let mut touches = Vec::new();
+            list(domain, solid, phase.coverage, &mut touches);
+            touches
+        };
+        let mut coverage = Coverage {
+            covers: phase.solids.par_iter().map(touches_of).collect(),
             starts: Vec::new(),
-            slots: vec![0; cell_count as usize],
+            slots: vec![0; domain.cell_count()],
             cells: Vec::new(),
             meetings: Vec::new(),
-        }
-    }
-
-    /// Lists again what the solids cover that have moved since, and which cells have several.
-    pub(super) fn update(&mut self, domain: &Domain, phase: &SolidPhase) {
-        self.covers.resize_with(phase.solids.len(), Cover::default);
-        self.covers.par_iter_mut().zip(&phase.solids).for_each(|(cover, solid)| {
-            if cover.centre != Some(solid.centre) {
-                cover.centre = Some(solid.centre);
-                cover.touches.clear();
-                list(domain, solid, phase.coverage, &mut cover.touches);
-            }
-        });
-        for &cell in &self.cells {
-            self.slots[cell as usize] = 0;
-        }
-        self.cells.clear();
-        self.starts.clear();
-        self.meetings.clear();
+        };
         let mut number = 0;
-        for cover in &self.covers {
-            self.starts.push(number);
-            for touch in &cover.touches {
+        for touches in &coverage.covers {
+            coverage.starts.push(number);
+            for touch in touches {
                 number += 1;
-                let slot = &mut self.slots[touch.cell as usize];
+                let slot = &mut coverage.slots[touch.cell as usize];
                 if *slot == 0 {
                     *slot = number;
-                    self.cells.push(touch.cell);
+                    coverage.cells.push(touch.cell);
                 } else {
-                    self.meetings.extend([(touch.cell, *slot), (touch.cell, number)]);
+                    coverage.meetings.extend([(touch.cell, *slot), (touch.cell, number)]);
                 }
             }
         }
-        self.starts.push(number);
-        self.meetings.sort_unstable();
-        self.meetings.dedup();
+        coverage.starts.push(number);
+        coverage.meetings.sort_unstable();
+        coverage.meetings.dedup();
+        coverage
     }
 
     /// The solid of a touch, and the touch.
     fn touch(&self, number: u32) -> (usize, &Touch) {
         let solid = self.starts.partition_point(|&start| start < number) - 1;
-        (solid, &self.covers[solid].touches[(number - 1 - self.starts[solid]) as usize])
-    }
-
-    /// The touches of a cell in which several solids meet; empty for other cells.
-    fn met(&self, cell: u32) -> &[(u32, u32)] {
-        let start = self.meetings.partition_point(|&(other, _)| other < cell);
-        let end = self.meetings.partition_point(|&(other, _)| other <= cell);
-        &self.meetings[start..end]
-    }
-
-    /// Total solid fraction of a cell, at most 1.
-    pub(super) fn solid_fraction(&self, cell: u32) -> f64 {
-        let epsilon = |number: u32| self.touch(number).1.epsilon;
-        match (self.slots[cell as usize], self.met(cell)) {
-            (0, _) => 0.0,
-            (slot, []) => epsilon(slot),
-            (_, all) => all.iter().map(|&(_, number)| epsilon(number)).sum::<f64>().min(1.0),
-        }
+        (solid, &self.covers[solid][(number - 1 - self.starts[solid]) as usize])
     }
 
     /// The covered cells with the sum of their solid fractions and `Σ ε_s u_s`, the velocity of each solid
@@ -130,7 +96,7 @@ impl Coverage {
     pub(super) fn motions(&self, phase: &SolidPhase) -> Vec<(u32, f64, Vec3)> {
         let mut parts = Vec::new();
         for (cover, solid) in self.covers.iter().zip(&phase.solids) {
-            for Touch { cell, epsilon, arm } in &cover.touches {
+            for Touch { cell, epsilon, arm } in cover {
                 // u_s = U + ω × r
                 let velocity = solid.velocity + solid.spin.cross(arm);
                 parts.push((*cell, *epsilon, *epsilon * velocity));
@@ -159,7 +125,7 @@ impl Coverage {
     /// The weight `B` of each cell.
     pub(super) fn weights(&self, weighting: Weighting, tau: f64) -> Vec<f32> {
         let mut weights = vec![0.0; self.slots.len()];
-        for touch in self.covers.iter().flat_map(|cover| &cover.touches) {
+        for touch in self.covers.iter().flatten() {
             weights[touch.cell as usize] = single(weight(weighting, touch.epsilon, tau));
         }
         for all in self.meetings.chunk_by(|a, b| a.0 == b.0) {
@@ -169,32 +135,16 @@ impl Coverage {
         weights
     }
 
-    /// `Σ B_s` over the cells of each solid.
-    pub(super) fn displaced(&self, weighting: Weighting, tau: f64) -> Vec<f64> {
-        let mut displaced = vec![0.0; self.covers.len()];
-        for (solid, cover) in self.covers.iter().enumerate() {
-            for Touch { cell, epsilon, .. } in &cover.touches {
-                let sum = match self.met(*cell) {
-                    [] => *epsilon,
-                    all => all.iter().map(|&(_, number)| self.touch(number).1.epsilon).sum(),
-                };
-                // B_s = B_t ε_s / Σ ε_s
-                displaced[solid] += weight(weighting, sum, tau) * epsilon / sum;
-            }
-        }
-        displaced
-    }
-
     /// The tables for the device.
     pub(super) fn tables(&self, phase: &SolidPhase, tau: f64) -> Tables {
         let none = Tables {
             shares: vec![[0; 4]],
             links: vec![0],
             weights: vec![0.0],
-            counts: self.covers.iter().map(|cover| count(cover.touches.len())).collect(),
+            counts: self.covers.iter().map(|cover| count(cover.len())).collect(),
         };
         let mut tables = none;
-        for touch in self.covers.iter().flat_map(|cover| &cover.touches) {
+        for touch in self.covers.iter().flatten() {
             let [x, y, z] = [touch.arm.x, touch.arm.y, touch.arm.z].map(|x| single(x).to_bits());
             tables.shares.push([0, x, y, z]);
             tables.links.push(self.slots[touch.cell as usize]);

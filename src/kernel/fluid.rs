@@ -2,6 +2,7 @@
 //! what can be seen of it in `sight.rs`, its saved state in `state.rs`.
 
 use std::cell::{OnceCell, RefCell};
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use psmrt_reference::directions::Q;
@@ -258,14 +259,10 @@ impl Kernel {
 
     /// Lists the cells that the step of all cells does not do right.
     pub(super) fn list_cells(&mut self) -> Result<(), KernelError> {
-        let cells = match &self.solids {
-            None => self.face_cells.clone(),
-            Some(solids) => {
-                let mut cells = solids.listed_cells();
-                cells.extend(self.face_cells.iter().filter(|&&cell| !solids.lists(cell)));
-                cells
-            }
-        };
+        let listed = self.solids.as_ref().map_or(&[][..], |solids| &solids.listed);
+        let mut cells = listed.to_vec();
+        let known: HashSet<u32> = listed.iter().copied().collect();
+        cells.extend(self.face_cells.iter().filter(|&cell| !known.contains(cell)));
         self.list_count = count(cells.len());
         self.list.fill(&self.gpu, &cells)?;
         let listed = [self.list_count, 1, 1, 0];

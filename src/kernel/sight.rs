@@ -2,6 +2,7 @@
 
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
+use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::solids::Load;
 
 use super::buffers::Growing;
@@ -13,6 +14,9 @@ use super::numbers::count;
 use super::pipeline::Pipeline;
 use super::steps::dispatch;
 use super::streaming::weight;
+
+/// Numbers that are read of a cell: its populations and its weight `B`.
+const SEEN: usize = Q + 1;
 
 /// Cells whose populations are read at once.
 const SLICE: usize = 1 << 18;
@@ -40,38 +44,48 @@ impl Kernel {
     }
 
     /// `Σ B_s` over the cells of each solid, where it is now.
-    pub fn displaced(&self) -> Vec<f64> {
-        match (&self.solids, &self.setup.solid_phase) {
-            (Some(solids), Some(phase)) => {
-                let tau = self.setup.collision.tau();
-                solids.coverage(&self.setup.domain, phase).displaced(phase.weighting, tau)
-            }
-            _ => Vec::new(),
-        }
+    pub fn displaced(&self) -> Result<Vec<f64>, KernelError> {
+        self.solids.as_ref().map_or(Ok(Vec::new()), |solids| solids.touches.displaced(&self.gpu))
     }
 
     /// Populations of the cells of the given numbers before their next collision, in their order.
     pub fn populations(&self, cells: &[usize]) -> Result<Vec<[f64; Q]>, KernelError> {
+        Ok(self.states(cells)?.into_iter().map(|(f, _)| f).collect())
+    }
+
+    /// The same, and the total solid fraction of each cell, at most 1: the one that its next collision uses.
+    pub fn states(&self, cells: &[usize]) -> Result<Vec<([f64; Q], f64)>, KernelError> {
         let observe = self.pipeline(&self.observe, Work::Observe)?;
         let mut found = Vec::with_capacity(cells.len());
         let most = usize::try_from(self.gpu.facts().max_binding_bytes).unwrap_or(usize::MAX);
-        for slice in cells.chunks(SLICE.min(most / (4 * Q)).max(1)) {
+        for slice in cells.chunks(SLICE.min(most / (4 * SEEN)).max(1)) {
             let numbers: Vec<u32> = slice.iter().map(|&cell| count(cell)).collect();
             let mut list = Growing::new(&self.gpu, "list of cells")?;
             list.fill(&self.gpu, &numbers)?;
-            let bytes = (slice.len() * Q * 4) as u64;
+            let bytes = (slice.len() * SEEN * 4) as u64;
             self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
             let count = count(slice.len());
             self.look(observe, &list, [count, 1, u32::from(self.is_collided), 0], count)?;
             let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
             let values: &[f32] = bytemuck::cast_slice(&bytes);
-            found.extend(
-                values
-                    .chunks_exact(Q)
-                    .map(|h| std::array::from_fn(|a| f64::from(h[a]) + weight(a))),
-            );
+            found.extend(values.chunks_exact(SEEN).map(|seen| {
+                let f = std::array::from_fn(|a| f64::from(seen[a]) + weight(a));
+                (f, self.fraction_of(seen[Q].into()))
+            }));
         }
         Ok(found)
+    }
+
+    /// The solid fraction of a cell of weight `B`.
+    fn fraction_of(&self, b: f64) -> f64 {
+        match self.setup.solid_phase.as_ref().map(|phase| phase.weighting) {
+            // B = ε (τ - 1/2) / [(1 - ε) + (τ - 1/2)], so that ε = B [1 + (τ - 1/2)] / [B + (τ - 1/2)]
+            Some(Weighting::NobleTorczynski) => {
+                let excess = self.setup.collision.tau() - 0.5;
+                (b * (1.0 + excess) / (b + excess)).min(1.0)
+            }
+            _ => b,
+        }
     }
 
     /// Runs a pipeline that reads the state into `seen`.
@@ -105,16 +119,6 @@ impl Kernel {
         self.look(summary, &self.list, task, strands)?;
         let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
         Ok(Summary::of(bytemuck::cast_slice(&bytes), &self.layout))
-    }
-
-    /// Total solid fraction of a cell, at most 1.
-    pub fn solid_fraction(&self, cell: usize) -> f64 {
-        match (&self.solids, &self.setup.solid_phase) {
-            (Some(solids), Some(phase)) => {
-                solids.coverage(&self.setup.domain, phase).solid_fraction(count(cell))
-            }
-            _ => 0.0,
-        }
     }
 }
 

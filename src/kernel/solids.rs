@@ -1,7 +1,5 @@
 //! The solids on the device.
 
-use std::cell::{Ref, RefCell};
-
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::SolidPhase;
@@ -25,8 +23,9 @@ const DENSE: f64 = 0.03;
 /// What the device holds of the solids.
 #[derive(Debug)]
 pub(super) struct Solids {
-    /// What they cover, as seen from outside; with movable solids, when it was last looked at.
-    coverage: RefCell<Coverage>,
+    /// The cells that must be listed, since the step of all cells does not have the solids in it, in order. Those of
+    /// movable solids the device lists itself.
+    pub(super) listed: Vec<u32>,
     /// Whether the step of all cells has the solids in it.
     pub(super) in_every_cell: bool,
     kept: Kept,
@@ -52,8 +51,7 @@ impl Solids {
     ) -> Result<Self, KernelError> {
         let (domain, layout) = (&recipe.setup.domain, recipe.layout);
         let tau = recipe.setup.collision.tau();
-        let mut coverage = Coverage::new(layout.count);
-        coverage.update(domain, phase);
+        let coverage = Coverage::of(domain, phase);
         let covered = coverage.cells().len() as f64 / domain.cell_count() as f64;
         let in_every_cell = covered > DENSE;
         let mut touches = Touches::new(gpu, layout.store)?;
@@ -75,8 +73,9 @@ impl Solids {
             touches.place(gpu, &phase.solids, &Room::one_after_another(&tables.counts))?;
             Kept::Fixed(Box::new([weights, slots]))
         };
+        let lists = !in_every_cell && recipe.solids != SolidData::Moving;
         Ok(Solids {
-            coverage: RefCell::new(coverage),
+            listed: if lists { coverage.cells().to_vec() } else { Vec::new() },
             in_every_cell,
             kept,
             touches,
@@ -114,18 +113,10 @@ impl Solids {
         self.movable().map_or(Ok(()), |movable| movable.find(gpu, &self.touches))
     }
 
-    /// What they cover where `phase` has them.
-    pub(super) fn coverage(&self, domain: &Domain, phase: &SolidPhase) -> Ref<'_, Coverage> {
-        if self.movable().is_some() {
-            self.coverage.borrow_mut().update(domain, phase);
-        }
-        self.coverage.borrow()
-    }
-
     /// The covered cells, how much of them is solid, and `Σ ε_s u_s`, where solids may move.
     pub(super) fn motions(&self, domain: &Domain, phase: &SolidPhase) -> Vec<(u32, f64, Vec3)> {
         match self.kept {
-            Kept::Movable(_) => self.coverage(domain, phase).motions(phase),
+            Kept::Movable(_) => Coverage::of(domain, phase).motions(phase),
             Kept::Fixed(_) => Vec::new(),
         }
     }
@@ -139,20 +130,5 @@ impl Solids {
             (_, Kept::Fixed(_)) => self.touches.resource(at)?,
             (_, Kept::Movable(movable)) => movable.resource(at, &self.touches)?,
         })
-    }
-
-    /// The cells that must be listed since the step of all cells does not have the solids in it. Those
-    /// of movable solids the device lists itself.
-    pub(super) fn listed_cells(&self) -> Vec<u32> {
-        if self.in_every_cell || self.movable().is_some() {
-            return Vec::new();
-        }
-        self.coverage.borrow().cells().to_vec()
-    }
-
-    /// Whether a cell is among them.
-    pub(super) fn lists(&self, cell: u32) -> bool {
-        let is_listed = !self.in_every_cell && self.movable().is_none();
-        is_listed && self.coverage.borrow().slots()[cell as usize] > 0
     }
 }

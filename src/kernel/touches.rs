@@ -8,7 +8,7 @@ use super::buffers::Growing;
 use super::coverage::Tables;
 use super::device::Gpu;
 use super::error::KernelError;
-use super::layout::Store;
+use super::layout::{Store, WORD};
 use super::numbers::{count, single};
 use super::table::Table;
 
@@ -27,6 +27,8 @@ pub(super) struct Touches {
     pub(super) weights: Growing,
     /// Momentum and density of each covered cell before its collision, by records.
     pub(super) moments: Table,
+    /// Where the touches of each solid stand.
+    room: Vec<Room>,
 }
 
 /// A solid as the device knows it (`wgsl/solid.wgsl`).
@@ -118,6 +120,7 @@ impl Touches {
             links: buffer("records of touches")?,
             weights: buffer("weights of touches")?,
             moments: table("moments of covered cells")?,
+            room: Vec::new(),
         })
     }
 
@@ -166,7 +169,24 @@ impl Touches {
     ) -> Result<(), KernelError> {
         let rows: Vec<Row> =
             solids.iter().zip(room).map(|(solid, room)| row(solid, room)).collect();
+        self.room.clear();
+        self.room.extend_from_slice(room);
         self.solids.fill(gpu, &rows)
+    }
+
+    /// `Σ B_s` over the touches of each solid.
+    pub(super) fn displaced(&self, gpu: &Gpu) -> Result<Vec<f64>, KernelError> {
+        let Some(last) = self.room.last() else { return Ok(Vec::new()) };
+        let words = u64::from(last.first + last.touches);
+        let weights = gpu.read(self.weights.buffer(), WORD * words)?;
+        let counts = gpu.read(self.counts.buffer(), WORD * self.room.len() as u64)?;
+        let weights: &[f32] = bytemuck::cast_slice(&weights);
+        let counts: &[u32] = bytemuck::cast_slice(&counts);
+        let sum = |(room, &count): (&Room, &u32)| -> f64 {
+            let first = room.first as usize;
+            weights[first..first + count as usize].iter().map(|&weight| f64::from(weight)).sum()
+        };
+        Ok(self.room.iter().zip(counts).map(sum).collect())
     }
 }
 

@@ -5,12 +5,17 @@
 //! cell's own size), and an epsilon of a place r cells from the centre moves the surface by r epsilon
 //! through an area of at most about √2.
 
+use crate::common::collisions::srt;
 use crate::common::cuts::{cut, images};
 use crate::common::random::Random;
 use crate::common::sphere_quadrature::fraction_by_quadrature;
+use crate::parity::{WEIGHTINGS, sphere};
 use crate::trials::{self, Claim};
-use psmrt::kernel::solid_fractions_on_device;
+use psmrt::kernel::{Kernel, solid_fractions_on_device};
+use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::lattice::Vec3;
+use psmrt_reference::setup::{Setup, SolidPhase};
+use psmrt_reference::solver::Solver;
 use std::f64::consts::PI;
 
 fn bound(radius: f64) -> f64 {
@@ -91,6 +96,55 @@ fn device_fractions_hardly_know_the_axes_of_the_box() {
     }
 }
 
+/// Overlapping spheres across a periodic face, some at rest and some on the move.
+fn fractions_that_are_seen_are_those_of_the_oracle() {
+    let domain = Domain::new([12, 10, 9], Faces::PERIODIC).unwrap();
+    let mut random = Random(24);
+    for (weighting, is_moving) in
+        [(0, false), (0, true), (1, false), (1, true)].map(|(w, moves)| (WEIGHTINGS[w], moves))
+    {
+        let speed = if is_moving { 0.01 } else { 0.0 };
+        let places = [[1.0, 4.3, 5.1], [3.2, 4.0, 5.5], [8.1, 9.2, 0.4], [9.0, 4.9, 4.6]];
+        let radii = [2.6, 1.9, 2.2, 0.7];
+        let solids = places.iter().zip(radii);
+        let solids = solids
+            .map(|(&place, radius)| sphere(place, radius, random.vector(speed), Vec3::zeros()));
+        let phase = SolidPhase { solids: solids.collect(), weighting, ..SolidPhase::default() };
+        for tau in [0.52, 0.8, 1.5] {
+            let setup = Setup::fluid(domain.clone(), srt(tau)).with_solids(phase.clone());
+            let kernel = Kernel::new(&trials::gpu().unwrap(), setup.clone(), false).unwrap();
+            let oracle = Solver::new(setup).unwrap();
+            let coverage = oracle.coverage().unwrap();
+            let all: Vec<usize> = (0..domain.cell_count()).collect();
+            // Two solids may share a cell. The weight is rounded once more, to no more than an epsilon of the
+            // fraction that it comes back as.
+            let bound = 2.0 * bound(2.6) + 2.0 * f64::from(f32::EPSILON);
+            for (cell, (_, seen)) in kernel.states(&all).unwrap().into_iter().enumerate() {
+                let expected = coverage.solid_fraction(cell);
+                assert!(
+                    (seen - expected).abs() <= bound,
+                    "{weighting:?}, moving {is_moving}, tau {tau}: cell {:?} is seen {seen} solid, the oracle \
+                     has {expected}",
+                    domain.coordinates(cell)
+                );
+            }
+            for (number, (found, expected)) in
+                kernel.displaced().unwrap().iter().zip(oracle.displaced()).enumerate()
+            {
+                // B grows with the fraction by a factor of (τ + 1/2)/(τ - 1/2) at most; a ball of radius r
+                // touches fewer than (2 r + 2)³ cells.
+                let slope = (tau + 0.5) / (tau - 0.5);
+                let allowed = (2.0 * radii[number] + 2.0).powi(3) * slope * bound;
+                assert!(
+                    (found - expected).abs() <= allowed,
+                    "{weighting:?}, moving {is_moving}, tau {tau}: solid {number} displaces {found}, that of \
+                     the oracle {expected}"
+                );
+            }
+        }
+    }
+}
+
 /// What is claimed here.
 pub const CLAIMS: &[Claim] = &[
     (
@@ -108,5 +162,9 @@ pub const CLAIMS: &[Claim] = &[
     (
         "device_fractions_hardly_know_the_axes_of_the_box",
         device_fractions_hardly_know_the_axes_of_the_box,
+    ),
+    (
+        "fractions_that_are_seen_are_those_of_the_oracle",
+        fractions_that_are_seen_are_those_of_the_oracle,
     ),
 ];
