@@ -14,7 +14,7 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
-use super::{BoxMeans, CellState, DeviceError, EngineStop, FluidEngine};
+use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine};
 use crate::machine::{Beginning, Spent};
 use crate::scene::FreePart;
 
@@ -205,14 +205,14 @@ impl Coupled {
         self.observed(self.fluid.means()).unwrap_or(broken)
     }
 
-    /// The state of the cells of the given numbers, in their order.
-    pub fn cells(&self, numbers: &[usize]) -> Vec<CellState> {
+    /// The state of the cells of a block, x fastest, z slowest.
+    pub fn cells(&self, block: Block) -> Vec<CellState> {
         let broken = CellState {
             density: f64::NAN,
             velocity: Vec3::repeat(f64::NAN),
             solid_fraction: f64::NAN,
         };
-        self.observed(self.fluid.cells(numbers)).unwrap_or_else(|| vec![broken; numbers.len()])
+        self.observed(self.fluid.cells(block)).unwrap_or_else(|| vec![broken; block.cell_count()])
     }
 
     /// The solids, where they are now.

@@ -1,5 +1,6 @@
 //! What is asked of whatever computes the fluid of a domain: a step, the load on each solid, sums over the
-//! domain and the state of some cells. None is assumed to keep its fields where the caller could look at them.
+//! domain and the state of the cells of a block. None is assumed to keep its fields where the caller could look at
+//! them, or to hold all planes of cells: sums are taken, and blocks put together, in the order of the planes.
 
 use std::fmt;
 use std::io::{self, Read, Write};
@@ -9,7 +10,7 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
-use super::DeviceError;
+use super::{Block, DeviceError};
 use crate::machine::Spent;
 
 /// The state of one cell, lattice units.
@@ -73,8 +74,8 @@ pub trait FluidEngine: fmt::Debug + Send {
     /// What `guard` wants to know of all cells.
     fn sight(&self, guard: &Guard) -> Result<Sight, DeviceError>;
 
-    /// The state of the cells of the given numbers, in their order.
-    fn cells(&self, numbers: &[usize]) -> Result<Vec<CellState>, DeviceError>;
+    /// The state of the cells of a block, x fastest, z slowest.
+    fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError>;
 
     /// Keeps from now on where the time goes, which may cost some, if it can.
     fn keep_times(&mut self) {}

@@ -8,6 +8,7 @@
 //! | `reference.rs`, `wgpu.rs` | the oracle and the kernel as fluid engines |
 //! | `free_state.rs`, `bytes.rs` | free grains, and numbers, as bytes |
 
+mod block;
 mod bytes;
 mod coupled;
 mod fluid;
@@ -26,6 +27,7 @@ use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::setup::SetupError;
 use thiserror::Error;
 
+pub use block::Block;
 pub use coupled::{Coupled, Profile};
 pub use fluid::{BoxMeans, CellState, FluidEngine};
 pub use name::EngineName;

@@ -11,7 +11,7 @@ use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::{Memory, Solver};
 
 use super::bytes::{put_real, real};
-use super::{BoxMeans, CellState, DeviceError, FluidEngine};
+use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine};
 use crate::scene::Scene;
 
 /// Plain double precision on the CPU.
@@ -115,10 +115,10 @@ impl FluidEngine for ReferenceEngine {
         Ok(guard.sight(self.solver.populations()))
     }
 
-    fn cells(&self, numbers: &[usize]) -> Result<Vec<CellState>, DeviceError> {
+    fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {
         let g = self.body_force();
         let coverage = self.solver.coverage();
-        let state = |&cell: &usize| {
+        let state = |cell: usize| {
             let f = &self.solver.populations()[cell];
             let rho = density(f);
             CellState {
@@ -127,7 +127,7 @@ impl FluidEngine for ReferenceEngine {
                 solid_fraction: coverage.map_or(0.0, |coverage| coverage.solid_fraction(cell)),
             }
         };
-        Ok(numbers.iter().map(state).collect())
+        Ok(block.numbers(self.solver.domain()).into_iter().map(state).collect())
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -10,7 +10,7 @@ use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
 use super::bytes::{put_whole, whole};
-use super::{BoxMeans, CellState, DeviceError, FluidEngine};
+use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine};
 use crate::kernel::{Gpu, Kernel, KernelError, KernelTimes, Summary};
 use crate::machine::Spent;
 
@@ -105,9 +105,9 @@ impl FluidEngine for KernelEngine {
         Ok(Sight { mean_density: density, max_speed: bare_speed, broken })
     }
 
-    fn cells(&self, numbers: &[usize]) -> Result<Vec<CellState>, DeviceError> {
+    fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {
         let g = self.kernel.setup().body_force.unwrap_or_else(Vec3::zeros);
-        let found = self.kernel.states(numbers)?;
+        let found = self.kernel.states(&block.numbers(&self.setup().domain))?;
         let state = |(f, solid_fraction): ([f64; Q], f64)| {
             let density: f64 = f.iter().sum();
             let j: Vec3 = (0..Q).map(|a| f[a] * Vec3::from(C[a].map(f64::from))).sum();

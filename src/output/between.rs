@@ -4,7 +4,7 @@
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 
-use crate::engine::{CellState, Coupled};
+use crate::engine::{Block, CellState, Coupled};
 
 /// A line or plane of points: its place along each axis in cells, `None` along the axes where it is as the cells
 /// are.
@@ -20,33 +20,29 @@ pub fn plane(axis: usize, at: f64) -> Place {
     std::array::from_fn(|other| (other == axis).then_some(at))
 }
 
-/// The state at `place`, for each of the `cells` that says where along the free axes. Cells that grains cover
+/// The state at `place`, for each cell along the axes where it is as the cells are, x fastest. Cells that grains cover
 /// count like all others: the fluid in them moves with the grain.
-pub fn states(
-    engine: &Coupled,
-    domain: &Domain,
-    place: Place,
-    cells: &[[usize; 3]],
-) -> Vec<CellState> {
+pub fn states(engine: &Coupled, domain: &Domain, place: Place) -> Vec<CellState> {
     let corners = corners(domain, place);
-    let number = |cell: [usize; 3], corner: &[Option<usize>; 3]| {
-        domain.index(std::array::from_fn(|axis| corner[axis].unwrap_or(cell[axis])))
+    let block = |corner: &[Option<usize>; 3]| Block {
+        low: corner.map(|cell| cell.unwrap_or(0)),
+        size: std::array::from_fn(|axis| corner[axis].map_or(domain.cells()[axis], |_| 1)),
     };
-    let numbers = |&cell| corners.iter().map(move |(corner, _)| number(cell, corner));
-    let numbers: Vec<usize> = cells.iter().flat_map(numbers).collect();
-    let found = engine.cells(&numbers);
-    found.chunks(corners.len()).map(|states| weighted(states, &corners)).collect()
+    let found: Vec<_> = corners.iter().map(|(corner, _)| engine.cells(block(corner))).collect();
+    let count = found.first().map_or(0, Vec::len);
+    let at = |cell: usize| found.iter().map(move |states| states[cell]);
+    (0..count).map(|cell| weighted(at(cell), &corners)).collect()
 }
 
 type Corner = ([Option<usize>; 3], f64);
 
-fn weighted(states: &[CellState], corners: &[Corner]) -> CellState {
-    // One cell is itself, to the last bit.
-    if let [state] = states {
-        return *state;
-    }
+fn weighted(mut states: impl Iterator<Item = CellState>, corners: &[Corner]) -> CellState {
     let mut sum = CellState { density: 0.0, velocity: Vec3::zeros(), solid_fraction: 0.0 };
-    for (state, (_, weight)) in states.iter().zip(corners) {
+    // One cell is itself, to the last bit.
+    if corners.len() == 1 {
+        return states.next().unwrap_or(sum);
+    }
+    for (state, (_, weight)) in states.zip(corners) {
         sum.density += weight * state.density;
         sum.velocity += *weight * state.velocity;
         sum.solid_fraction += weight * state.solid_fraction;

@@ -8,7 +8,7 @@ use psmrt_reference::solids::{Load, Shape};
 
 use super::csv::{Column, Mark, TableFile, Value};
 use super::{between, grain_means, names, snapshots};
-use crate::engine::{CellState, Coupled};
+use crate::engine::{Block, CellState, Coupled};
 use crate::scene::{Record, Scene, What};
 
 /// The columns of a record of kind `box`, after time and step.
@@ -208,14 +208,12 @@ pub fn box_row(scene: &Scene, engine: &Coupled) -> [f64; 5] {
 
 /// Mean of the momentum with half a step of the body force, `j + G/2`.
 fn flux_at_start(scene: &Scene, engine: &Coupled) -> Vec3 {
-    let count = scene.setup.domain.cell_count();
-    let [nx, ny, _] = scene.setup.domain.cells();
-    let planes = (0..count).step_by(nx * ny);
-    let of_plane = |first: usize| -> Vec3 {
-        let numbers: Vec<usize> = (first..first + nx * ny).collect();
-        engine.cells(&numbers).iter().map(|cell| cell.density * cell.velocity).sum()
+    let domain = &scene.setup.domain;
+    let of_plane = |z: usize| -> Vec3 {
+        let cells = engine.cells(Block::plane(domain, z));
+        cells.iter().map(|cell| cell.density * cell.velocity).sum()
     };
-    planes.map(of_plane).sum::<Vec3>() / count as f64
+    (0..domain.cells()[2]).map(of_plane).sum::<Vec3>() / domain.cell_count() as f64
 }
 
 /// The values of [`FORCE_COLUMNS`], summed over all grains.
@@ -248,8 +246,6 @@ pub fn profile_rows(
     through: [f64; 3],
 ) -> Vec<[f64; 8]> {
     let (domain, units) = (&scene.setup.domain, &scene.units);
-    let cell = |i: usize| std::array::from_fn(|other| if other == axis { i } else { 0 });
-    let line: Vec<[usize; 3]> = (0..domain.cells()[axis]).map(cell).collect();
     let row = |(i, state): (usize, CellState)| {
         let velocity = state.velocity * units.si_velocity();
         let position = (i as f64 + 0.5) * units.si_dx;
@@ -259,7 +255,7 @@ pub fn profile_rows(
         let [x, y, z] = point;
         [position, pressure, velocity.x, velocity.y, velocity.z, x, y, z]
     };
-    let states = between::states(engine, domain, between::line(axis, through), &line);
+    let states = between::states(engine, domain, between::line(axis, through));
     states.into_iter().enumerate().map(row).collect()
 }
 

@@ -24,16 +24,9 @@ pub fn map(
 ) -> Map {
     let (domain, units) = (&scene.setup.domain, &scene.units);
     let cells = domain.cells();
+    // Of the two axes of the plane the first one runs faster, as in the picture.
     let [right, up] = [[1, 2], [0, 2], [0, 1]][normal];
-    let mut places = Vec::with_capacity(cells[right] * cells[up]);
-    for j in 0..cells[up] {
-        for i in 0..cells[right] {
-            let mut cell = [0; 3];
-            (cell[right], cell[up]) = (i, j);
-            places.push(cell);
-        }
-    }
-    let states = between::states(engine, domain, between::plane(normal, at), &places);
+    let states = between::states(engine, domain, between::plane(normal, at));
     let (label, si_factor, value) = words(quantity);
     let shown = |cell: &CellState| {
         (cell.solid_fraction <= MOSTLY_SOLID).then(|| si_factor * value(units, quantity, cell))

@@ -8,7 +8,7 @@ use psmrt_reference::solids::Load;
 
 use super::vtk::Array;
 use super::{atomic, grain_means, names, npy, vtk};
-use crate::engine::{CellState, Coupled};
+use crate::engine::{Block, CellState, Coupled};
 use crate::scene::format_run::FieldFormat;
 use crate::scene::{Record, Rhythm, Scene, What};
 
@@ -71,17 +71,17 @@ pub const BYTES_OF_FIELDS: u64 = 5 * size_of::<f64>() as u64;
 
 impl Fields {
     fn of(scene: &Scene, engine: &Coupled) -> Self {
-        let ([nx, ny, nz], units) = (scene.setup.domain.cells(), scene.units);
-        let count = nx * ny * nz;
+        let (domain, units) = (&scene.setup.domain, scene.units);
+        let count = domain.cell_count();
         let mut fields = Fields {
             pressure: Vec::with_capacity(count),
             velocity: Vec::with_capacity(3 * count),
             solid_fraction: scene.setup.solid_phase.is_some().then(|| Vec::with_capacity(count)),
         };
         let si_velocity = units.si_velocity();
-        for z in 0..nz {
-            let plane: Vec<usize> = (z * nx * ny..(z + 1) * nx * ny).collect();
-            for CellState { density, velocity, solid_fraction } in engine.cells(&plane) {
+        for z in 0..domain.cells()[2] {
+            let plane = engine.cells(Block::plane(domain, z));
+            for CellState { density, velocity, solid_fraction } in plane {
                 fields.pressure.push(units.si_gauge_pressure(density));
                 fields.velocity.extend((velocity * si_velocity).iter());
                 if let Some(values) = &mut fields.solid_fraction {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::{Folder, psmrt, stdout};
 use crate::common::{Budget, golden_rows};
 use crate::trials::{self, Claim};
-use psmrt::engine::{Coupled, EngineStop, open};
+use psmrt::engine::{Block, Coupled, EngineStop, open};
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::CoupledStop;
 use psmrt_reference::guard::Stopped;
@@ -215,11 +215,11 @@ fn every_golden_scene_starts_and_steps_alike_on_both_engines() {
         let (mut kernel, mut oracle) = (kernel_engine(&scene), open(&scene, None, false).unwrap());
         kernel.step(STEPS).unwrap();
         oracle.step(STEPS).unwrap();
-        let all: Vec<usize> = (0..count).collect();
+        let all = Block::whole(&scene.setup.domain);
         // As in tests/device/kernel_runs.rs: populations are off by 2 (√n ε + δB) g, and ten of them make a
         // momentum. The gauge g, the sum of the populations less their weights, is below |ρ - 1| + 5 |u|;
         // δB is that of tau = 1/2 + 0.2 and more, which the golden scenes with free grains have.
-        let expected = oracle.cells(&all);
+        let expected = oracle.cells(all);
         let gauge = expected
             .iter()
             .map(|cell| (cell.density - 1.0).abs() + 5.0 * cell.velocity.norm())
@@ -227,7 +227,7 @@ fn every_golden_scene_starts_and_steps_alike_on_both_engines() {
         let weight_error = if scene.free.is_some() { 6.0 * 3e-6 } else { 0.0 };
         let each = 2.0 * ((STEPS as f64).sqrt() * f64::from(f32::EPSILON) + weight_error) * gauge;
         let bound = 10.0_f64.sqrt() * each;
-        let errors = kernel.cells(&all).into_iter().zip(&expected).map(|(found, expected)| {
+        let errors = kernel.cells(all).into_iter().zip(&expected).map(|(found, expected)| {
             (found.velocity - expected.velocity)
                 .norm()
                 .max((found.density - expected.density).abs())

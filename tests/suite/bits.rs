@@ -7,7 +7,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use psmrt::engine::open;
+use psmrt::engine::{Block, open};
 use psmrt::scene::{FreePart, Scene};
 use psmrt_reference::coupling::CoupledSolver;
 use psmrt_reference::forcing::forced_velocity;
@@ -168,8 +168,8 @@ fn engine_reference_has_the_state_of_the_oracles_own_solvers_to_the_last_bit() {
         let engine = std::thread::spawn(stepped).join().unwrap().unwrap();
         let fluid = oracle.fluid();
         let g = scene.setup.body_force.unwrap_or_else(Vec3::zeros);
-        let all: Vec<usize> = (0..cells).collect();
-        for (cell, (seen, f)) in engine.cells(&all).iter().zip(fluid.populations()).enumerate() {
+        let all = Block::whole(&scene.setup.domain);
+        for (cell, (seen, f)) in engine.cells(all).iter().zip(fluid.populations()).enumerate() {
             let expected = (density(f), forced_velocity(density(f), &momentum(f), &g));
             assert!((seen.density, seen.velocity) == expected, "{name}: cell {cell} differs");
         }

@@ -131,7 +131,7 @@ fn time(engine: &mut Coupled, model: &Model) -> Result<f64, Failure> {
         }
     }
     // A device may still be at work: what it is asked for now waits for it.
-    engine.cells(&[0]);
+    engine.cells(psmrt::engine::Block::cell([0; 3]));
     Ok(processor_seconds()? - start)
 }
 

@@ -15,7 +15,7 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Search};
-use psmrt::engine::{Coupled, EngineName};
+use psmrt::engine::{Block, Coupled, EngineName};
 
 /// Edge of the cubic cell of the array.
 const SIDE: usize = 16;
@@ -199,18 +199,15 @@ fn by_inlet(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
     let setup = Lab::setup(line, cells, faces)?.with_solids(phase(line, &centres));
     let mut engine = lab.engine(line, &setup, None, |_| (1.0, along(speed)))?;
     // Pressure in the planes in the middle of the free cells before and behind the bed.
-    let plane = |x: usize| -> Vec<usize> {
-        let cells = (0..half).flat_map(|z| (0..half).map(move |y| [x, y, z]));
-        cells.map(|cell| setup.domain.index(cell)).collect()
-    };
+    let plane = |x: usize| Block { low: [x, 0, 0], size: [1, half, half] };
     let planes = [LEAD / 2, cells[0] - LEAD / 2 - 1].map(plane);
     let drop = |engine: &Coupled| {
-        let mean = |numbers: &[usize]| {
-            let sum: f64 = engine.cells(numbers).iter().map(|cell| cell.density).sum();
-            sum / numbers.len() as f64
+        let mean = |plane: Block| {
+            let sum: f64 = engine.cells(plane).iter().map(|cell| cell.density).sum();
+            sum / plane.cell_count() as f64
         };
         // p = ρ/3
-        (mean(&planes[0]) - mean(&planes[1])) / 3.0
+        (mean(planes[0]) - mean(planes[1])) / 3.0
     };
     let steps = within(30.0 / speed, 600, 1500);
     let [before, after] = ends(&mut engine, steps, drop)?;

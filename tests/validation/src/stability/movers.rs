@@ -25,7 +25,7 @@ use psmrt_reference::solids::Solid;
 
 use super::lab::{Lab, go_on};
 use super::{Flow, Found, LabError, Line, Search};
-use psmrt::engine::{Coupled, EngineName};
+use psmrt::engine::{Block, Coupled, EngineName};
 use psmrt::scene::FreePart;
 
 const SIDE: usize = 12;
@@ -92,15 +92,15 @@ fn run(lab: &Lab, line: &Line, ratio: f64) -> Result<Found, LabError> {
     let state =
         |x: Vec3| (1.0, if (x - centre).norm() < RADIUS { velocity } else { Vec3::zeros() });
     let mut engine = lab.engine(line, &setup, Some(&free), state)?;
-    let all: Vec<usize> = (0..setup.domain.cell_count()).collect();
+    let (all, count) = (Block::whole(&setup.domain), setup.domain.cell_count() as f64);
     let momentum = |engine: &Coupled, now: Vec3, before: Vec3| -> Vec3 {
-        let fluid: Vec3 = engine.cells(&all).iter().map(|cell| cell.density * cell.velocity).sum();
+        let fluid: Vec3 = engine.cells(all).iter().map(|cell| cell.density * cell.velocity).sum();
         // Σ j + m_s v_n - m_f v_(n-1), the last where it is given back (`coupling`)
         fluid + grain.mass * now - if is_lagged { fluid_mass * before } else { Vec3::zeros() }
     };
     let at_start = momentum(&engine, velocity, velocity);
     let nu = viscosity(line.tau);
-    let masses = [grain.mass, all.len() as f64];
+    let masses = [grain.mass, count];
     let reduced = masses[0] * masses[1] / (masses[0] + masses[1]);
     let settling = (SIDE as f64 / TAU).powi(2) / nu + reduced / (6.0 * PI * nu * RADIUS);
     let mut error = 0.0_f64;
@@ -113,7 +113,7 @@ fn run(lab: &Lab, line: &Line, ratio: f64) -> Result<Found, LabError> {
         let gone = (momentum(&engine, now, before) - at_start).norm() / grain.mass;
         error = error.max(gone / SPEED).max(now.norm() / SPEED - 1.0);
         if next as f64 > 5.0 * settling {
-            let mass = all.len() as f64 + grain.mass - if is_lagged { fluid_mass } else { 0.0 };
+            let mass = count + grain.mass - if is_lagged { fluid_mass } else { 0.0 };
             error = error.max((now - at_start / mass).norm() / SPEED);
         }
     }

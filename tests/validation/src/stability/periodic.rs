@@ -19,7 +19,7 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use super::lab::{Lab, go_on};
 use super::spectral::vorticity;
 use super::{Flow, Found, LabError, Line, Search};
-use psmrt::engine::{Coupled, EngineName};
+use psmrt::engine::{Block, Coupled, EngineName};
 
 /// Largest velocities at the start, cells per step.
 const SPEEDS: &[f64] = &[0.003, 0.01, 0.02, 0.03, 0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.5];
@@ -130,9 +130,9 @@ fn budget(
     let setup = Lab::setup(line, cells, Faces::PERIODIC)?;
     let nu = viscosity(line.tau);
     let mut engine = lab.flowing(line, &setup, state)?;
-    let all: Vec<usize> = (0..setup.domain.cell_count()).collect();
+    let all = Block::whole(&setup.domain);
     let look = |engine: &Coupled| {
-        let u: Vec<Vec3> = engine.cells(&all).iter().map(|cell| cell.velocity).collect();
+        let u: Vec<Vec3> = engine.cells(all).iter().map(|cell| cell.velocity).collect();
         let n = u.len() as f64;
         let energy = u.iter().map(|u| 0.5 * u.norm_squared()).sum::<f64>() / n;
         let squares: Vec<f64> = vorticity(&u, cells).iter().map(|w| w.norm_squared()).collect();
@@ -181,10 +181,10 @@ fn abc(lab: &Lab, line: &Line, speed: f64) -> Result<Found, LabError> {
     let steps = within(48.0 / speed, 300, 800);
     let judged_at = within((1.0 / rate).min(3.0 / (speed * k)), 1, steps);
     go_on(&mut engine, judged_at)?;
-    let all: Vec<usize> = (0..setup.domain.cell_count()).collect();
+    let all = Block::whole(&setup.domain);
     let left = (-rate * judged_at as f64).exp();
     let (mut off, mut whole) = (0.0, 0.0);
-    for (cell, &number) in engine.cells(&all).iter().zip(&all) {
+    for (number, cell) in engine.cells(all).iter().enumerate() {
         let exact = left * field(setup.domain.centre(setup.domain.coordinates(number)));
         off += (cell.velocity - exact).norm_squared();
         whole += exact.norm_squared();

@@ -204,12 +204,12 @@ fn crowd(lab: &Lab, line: &Line, count: f64) -> Result<Found, LabError> {
         return Ok(Found::judged(STEPS, error, 1e-3));
     }
     // Σ_cells (1 - B) G = Σ F + d(Σ j)/dt, over one step
-    let all: Vec<usize> = (0..SIDE * SIDE * SIDE).collect();
+    let all = psmrt::engine::Block { low: [0; 3], size: [SIDE; 3] };
     let weighting = line.weighting.unwrap_or_default();
     let total = |cells: &[psmrt::engine::CellState]| -> f64 {
         cells.iter().map(|cell| cell.density * cell.velocity.x).sum()
     };
-    let before = engine.cells(&all);
+    let before = engine.cells(all);
     let input: f64 = before
         .iter()
         .map(|cell| (1.0 - weighting.weight(cell.solid_fraction, line.tau)) * FORCE)
@@ -220,7 +220,7 @@ fn crowd(lab: &Lab, line: &Line, count: f64) -> Result<Found, LabError> {
         go_on(&mut engine, STEPS + step)?;
         taken += engine.loads().iter().map(|load| load.force.x).sum::<f64>();
     }
-    let gained = total(&engine.cells(&all)) - total(&before);
+    let gained = total(&engine.cells(all)) - total(&before);
     let error = ((taken + gained) / (input * MORE as f64) - 1.0).abs();
     Ok(Found::judged(STEPS + MORE, error, 0.02))
 }

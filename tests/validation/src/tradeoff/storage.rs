@@ -10,7 +10,9 @@ use psmrt_reference::guard::{Guard, Sight};
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
 
-use psmrt::engine::{BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine};
+use psmrt::engine::{
+    Block, BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine,
+};
 use psmrt::scene::Scene;
 use psmrt::tradeoff::parameters::Storage;
 
@@ -103,8 +105,8 @@ impl FluidEngine for RoundedEngine {
         self.inner.sight(guard)
     }
 
-    fn cells(&self, numbers: &[usize]) -> Result<Vec<CellState>, DeviceError> {
-        self.inner.cells(numbers)
+    fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {
+        self.inner.cells(block)
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
