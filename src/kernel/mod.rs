@@ -10,7 +10,7 @@
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `solids.rs`, `touches.rs` | the solids on the device |
 //! | `movable.rs`, `covering.rs`, `wgsl/{cover,fraction,resolve}.wgsl` | what movable solids cover, found on the device |
-//! | `coverage.rs`, `sphere.rs` | the same in double precision, where none can move and for what is seen |
+//! | `coverage.rs`, `sphere.rs` | the same in double precision, where none can move and for the velocities that covered cells start with |
 //! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
 //! | `fluid.rs`, `steps.rs`, `sight.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
 //!
