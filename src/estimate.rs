@@ -73,7 +73,7 @@ pub(crate) fn si_velocity(scene: &Scene) -> Option<(f64, &'static str)> {
     });
     let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
     let solids = solids.map(|solid| match solid.shape {
-        Shape::Sphere { radius } => solid.velocity.norm() + radius * solid.spin.norm(),
+        Shape::Sphere { radius } => solid.velocity.norm() + radius * solid.angular_velocity.norm(),
         Shape::Cells { .. } => solid.velocity.norm(),
     });
     let speeds = faces.chain(solids).chain([scene.initial_velocity.norm()]);

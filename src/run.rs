@@ -18,7 +18,7 @@ use crate::engine::{Coupled, EngineStop};
 use crate::output::folder::RunFolder;
 use crate::output::names;
 use crate::output::records::Recorder;
-use crate::scene::{Interval, Rhythm, Scene};
+use crate::scene::{Interval, OutputInterval, Scene};
 use crate::stopped_grain::{self, GrainStop};
 
 /// A run that could not go on.
@@ -272,13 +272,13 @@ impl<'a> Run<'a> {
     fn observe(&mut self, engine: &mut Coupled) -> Result<(), RunError> {
         let now = engine.steps();
         let mut written = Ok(());
-        if self.recorders.iter().any(|recorder| recorder.record.rhythm.is_due(now)) {
+        if self.recorders.iter().any(|recorder| recorder.record.interval.is_due(now)) {
             engine.look()?;
             if !self.folder.is_there() {
                 written = Err(io::Error::from(io::ErrorKind::NotFound));
             }
         }
-        for recorder in self.recorders.iter_mut().filter(|r| r.record.rhythm.is_due(now)) {
+        for recorder in self.recorders.iter_mut().filter(|r| r.record.interval.is_due(now)) {
             written = written.and(recorder.take(self.scene, engine));
         }
         if let Some(steady) = &mut self.steady {
@@ -290,9 +290,9 @@ impl<'a> Run<'a> {
     /// The step at which something is due next, or the watcher should be told.
     fn next_event(&self, now: u64) -> u64 {
         let after = |interval: u64| (now / interval + 1).saturating_mul(interval);
-        let records = self.scene.records.iter().filter_map(|record| match record.rhythm {
-            Rhythm::Every(interval) => Some(after(interval)),
-            Rhythm::AtEnd => None,
+        let records = self.scene.records.iter().filter_map(|record| match record.interval {
+            OutputInterval::Every(interval) => Some(after(interval)),
+            OutputInterval::AtEnd => None,
         });
         let checkpoint = match self.scene.checkpoint {
             Interval::Steps(interval) => after(interval),
@@ -350,7 +350,7 @@ impl<'a> Run<'a> {
     fn finish(&mut self, engine: &mut Coupled) -> Result<(), RunError> {
         engine.look()?;
         for recorder in &mut self.recorders {
-            if recorder.record.rhythm == Rhythm::AtEnd {
+            if recorder.record.interval == OutputInterval::AtEnd {
                 recorder.take(self.scene, engine)?;
             }
             recorder.sync()?;

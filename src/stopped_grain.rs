@@ -22,7 +22,7 @@ pub struct GrainStop {
     /// The time then, s.
     pub si_time: f64,
     /// What has happened.
-    pub symptom: String,
+    pub failure: String,
     /// Why, probably.
     pub cause: String,
     /// What to do.
@@ -31,10 +31,10 @@ pub struct GrainStop {
 
 impl fmt::Display for GrainStop {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let GrainStop { step, si_time, symptom, cause, remedy } = self;
+        let GrainStop { step, si_time, failure, cause, remedy } = self;
         write!(
             out,
-            "stopped after step {step} ({si_time:.4e} s): {symptom}. Probable cause: {cause}\n  help: {remedy}"
+            "stopped after step {step} ({si_time:.4e} s): {failure}. Probable cause: {cause}\n  help: {remedy}"
         )
     }
 }
@@ -43,7 +43,7 @@ impl fmt::Display for GrainStop {
 pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &Coupled) -> Option<GrainStop> {
     let EngineStop::Broken(CoupledStop::Grains(error)) = stop else { return None };
     let case = Case { scene, part: scene.free.as_ref()?, system: engine.free_grains()? };
-    let (symptom, cause, remedy) = match error {
+    let (failure, cause, remedy) = match error {
         GrainError::Sunk(sunk) => case.sunk(sunk),
         GrainError::Thrown { grain, speed, gained, .. } => case.thrown(*grain, *speed, *gained),
         GrainError::NotFinite { grain, position } => {
@@ -55,10 +55,10 @@ pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &Coupled) -> O
     };
     let step = engine.steps();
     let si_time = step as f64 * scene.units.si_dt;
-    Some(GrainStop { step, si_time, symptom, cause, remedy })
+    Some(GrainStop { step, si_time, failure, cause, remedy })
 }
 
-/// Symptom, cause and remedy.
+/// Failure, cause and remedy.
 type Words = (String, String, String);
 
 /// A scene, and its grains when the run stopped.
@@ -87,7 +87,7 @@ impl Case<'_> {
             }
         };
         let is_through = matches!(sunk.obstacle, Obstacle::Plane(_)) && sunk.overlap > sunk.radius;
-        let symptom = format!(
+        let failure = format!(
             "grain {} (counted from 0) {} {obstacle}: by {:.3e} m, {:.2} times the radius of grain {weaker}; \
              the limit is {DEEPEST}",
             sunk.grain,
@@ -104,7 +104,7 @@ impl Case<'_> {
         let arrives = sunk.approach.max(0.0);
         let stopping = arrives * (mass / stiffness).sqrt();
         if let Some(words) = self.overlap_at_start(sunk.grain, speed) {
-            return (symptom, words.0, words.1);
+            return (failure, words.0, words.1);
         }
         // What would have held it: at rest, in the impact, and against what has pressed it in.
         let asked = self.burden().stiffness();
@@ -117,7 +117,7 @@ impl Case<'_> {
                  diameter",
                 stiffness * units.si_stiffness()
             );
-            return (symptom, cause, harder);
+            return (failure, cause, harder);
         }
         let substep = 1.0 / f64::from(self.part.substeps().unwrap_or(1));
         if speed * substep > 0.5 * sunk.radius {
@@ -125,13 +125,13 @@ impl Case<'_> {
                 "the sub-step is too long: the grain moves {:.2} of its radius in one, and the contact is seen too late",
                 speed * substep / grain.radius
             );
-            return (symptom, cause, self.shorter(speed));
+            return (failure, cause, self.shorter(speed));
         }
         if speed > MAX_SPEED {
             let cause = format!(
                 "the grain moves at {speed:.2} cells per time step, at which the flow around it is unstable"
             );
-            return (symptom, cause, self.shorter(speed));
+            return (failure, cause, self.shorter(speed));
         }
         let cause = if stopping > 0.1 * sunk.radius {
             format!(
@@ -148,13 +148,13 @@ impl Case<'_> {
                 stiffness * sunk.overlap * units.si_force()
             )
         };
-        (symptom, cause, harder)
+        (failure, cause, harder)
     }
 
     /// A grain that contacts have thrown.
     fn thrown(&self, grain: usize, speed: f64, gained: f64) -> Words {
         let si = self.scene.units.si_velocity();
-        let symptom = format!(
+        let failure = format!(
             "grain {grain} (counted from 0) moves at {:.3e} m/s, {speed:.2} cells per time step, and contacts have given \
              it {:.3e} m/s in the last step",
             speed * si,
@@ -164,12 +164,12 @@ impl Case<'_> {
             let cause = "a contact was compressed too far and has rebounded".to_owned();
             (cause, self.shorter(speed))
         });
-        (symptom, cause, remedy)
+        (failure, cause, remedy)
     }
 
     /// A grain that is nowhere.
     fn nowhere(grain: usize, position: &[f64; 3], is_fluid: bool) -> Words {
-        let symptom = match position.iter().all(|x| x.is_finite()) {
+        let failure = match position.iter().all(|x| x.is_finite()) {
             true => {
                 format!("grain {grain} (counted from 0) is too far away for cells to be numbered")
             }
@@ -180,13 +180,13 @@ impl Case<'_> {
                 let cause =
                     "the hydrodynamic force on a grain is not a number: the flow is unstable"
                         .to_owned();
-                (symptom, cause, "use a shorter time step or a finer grid".to_owned())
+                (failure, cause, "use a shorter time step or a finer grid".to_owned())
             }
             false => {
                 let cause = "contacts: all hydrodynamic forces are finite".to_owned();
                 let remedy = "look for grains at the same position at the start, and leave [contact] out to have it \
                               chosen";
-                (symptom, cause, remedy.to_owned())
+                (failure, cause, remedy.to_owned())
             }
         }
     }

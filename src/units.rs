@@ -31,7 +31,7 @@ impl Units {
     }
 
     /// One radian per time step, rad/s.
-    pub fn si_spin(&self) -> f64 {
+    pub fn si_angular_velocity(&self) -> f64 {
         1.0 / self.si_dt
     }
 
@@ -71,7 +71,7 @@ impl Units {
             self.si_velocity(),
             self.si_acceleration(),
             self.si_viscosity(),
-            self.si_spin(),
+            self.si_angular_velocity(),
             self.si_pressure(),
             self.si_force(),
             self.si_torque(),

@@ -29,7 +29,7 @@ pub struct Solid {
     /// Velocity of the centre.
     pub velocity: Vec3,
     /// Angular velocity in radians per step.
-    pub spin: Vec3,
+    pub angular_velocity: Vec3,
 }
 
 /// A solid that cannot be used.
@@ -63,24 +63,29 @@ impl Solid {
     /// A fixed sphere.
     pub fn fixed_sphere(centre: Vec3, radius: f64) -> Self {
         let still = Vec3::zeros();
-        Solid { shape: Shape::Sphere { radius }, centre, velocity: still, spin: still }
+        Solid { shape: Shape::Sphere { radius }, centre, velocity: still, angular_velocity: still }
     }
 
     /// Given solid fractions, fixed.
     pub fn fixed_cells(fractions: Vec<(usize, f64)>) -> Self {
         let still = Vec3::zeros();
-        Solid { shape: Shape::Cells { fractions }, centre: still, velocity: still, spin: still }
+        Solid {
+            shape: Shape::Cells { fractions },
+            centre: still,
+            velocity: still,
+            angular_velocity: still,
+        }
     }
 
     /// Velocity of the solid at distance `arm` from its centre, translation and rotation.
     pub fn velocity_at(&self, arm: &Vec3) -> Vec3 {
         // u_p = U + ω × r
-        self.velocity + self.spin.cross(arm)
+        self.velocity + self.angular_velocity.cross(arm)
     }
 
     /// Whether it moves or spins.
     pub fn has_velocity(&self) -> bool {
-        self.velocity != Vec3::zeros() || self.spin != Vec3::zeros()
+        self.velocity != Vec3::zeros() || self.angular_velocity != Vec3::zeros()
     }
 
     /// Whether the solid's cells change from step to step.
@@ -93,7 +98,7 @@ impl Solid {
         let bad = |key, value, allowed| Err(SolidError::BadValue { solid, key, value, allowed });
         let finite = "it must be finite";
         for (key, vector) in
-            [("centre", self.centre), ("velocity", self.velocity), ("spin", self.spin)]
+            [("centre", self.centre), ("velocity", self.velocity), ("spin", self.angular_velocity)]
         {
             if let Some(&value) = vector.iter().find(|component| !component.is_finite()) {
                 return bad(key, value, finite);

@@ -178,8 +178,18 @@ fn contact_inputs(pairs: &[TouchingPair]) -> Vec<Input> {
             &vector,
             vectors(|p| p.motions[1].velocity),
         ),
-        input("spin_first", "angular velocity", &vector, vectors(|p| p.motions[0].spin)),
-        input("spin_second", "angular velocity", &vector, vectors(|p| p.motions[1].spin)),
+        input(
+            "spin_first",
+            "angular velocity",
+            &vector,
+            vectors(|p| p.motions[0].angular_velocity),
+        ),
+        input(
+            "spin_second",
+            "angular velocity",
+            &vector,
+            vectors(|p| p.motions[1].angular_velocity),
+        ),
         input("stiffness", "k, force/length", &[pair], list(|p| p.law.stiffness)),
         input("damping", "gamma, force time/length", &[pair], list(|p| p.law.damping)),
     ];

@@ -109,7 +109,7 @@ fn solids(phase: &SolidPhase) -> Value {
             "radius": radius,
             "centre": components(solid.centre),
             "velocity": components(solid.velocity),
-            "spin": components(solid.spin),
+            "spin": components(solid.angular_velocity),
         })
     };
     phase.solids.iter().map(solid).collect()

@@ -22,8 +22,9 @@ use crate::scene::FreePart;
 pub fn save(out: &mut dyn Write, state: &GrainState, last: &[LastStep]) -> io::Result<()> {
     put_whole(out, state.grains.len() as u64)?;
     for ((grain, load), last) in state.grains.iter().zip(&state.contact_loads).zip(last) {
-        let vectors = [&grain.position, &grain.velocity, &grain.spin, &load.force, &load.torque];
-        let before = [&last.velocity, &last.spin, &last.load.force, &last.load.torque];
+        let vectors =
+            [&grain.position, &grain.velocity, &grain.angular_velocity, &load.force, &load.torque];
+        let before = [&last.velocity, &last.angular_velocity, &last.load.force, &last.load.torque];
         vectors.into_iter().chain(before).try_for_each(|vector| put_vector(out, vector))?;
         grain.orientation.coords.iter().try_for_each(|&value| put_real(out, value))?;
     }
@@ -54,14 +55,18 @@ pub fn load(from: &mut dyn Read, part: &FreePart) -> io::Result<(GrainState, Vec
     expect(whole(from)?, grains.len(), "free grains")?;
     let (mut contact_loads, mut last, mut moved) = (Vec::new(), Vec::new(), Vec::new());
     for grain in grains {
-        let (position, velocity, spin) = (vector(from)?, vector(from)?, vector(from)?);
+        let (position, velocity, angular_velocity) = (vector(from)?, vector(from)?, vector(from)?);
         contact_loads.push(load_of(from)?);
         let (before, spin_before) = (vector(from)?, vector(from)?);
-        last.push(LastStep { velocity: before, spin: spin_before, load: load_of(from)? });
+        last.push(LastStep {
+            velocity: before,
+            angular_velocity: spin_before,
+            load: load_of(from)?,
+        });
         let [i, j, k, w] = [real(from)?, real(from)?, real(from)?, real(from)?];
         // Its length was 1 to round-off; normalising it anew would change the last bits.
         let orientation = UnitQuaternion::new_unchecked(Quaternion::new(w, i, j, k));
-        moved.push(Grain { position, velocity, spin, orientation, ..*grain });
+        moved.push(Grain { position, velocity, angular_velocity, orientation, ..*grain });
     }
     expect(whole(from)?, planes.len(), "planes")?;
     let plane = |plane: &Plane| Ok(Plane { point: vector(from)?, ..*plane });

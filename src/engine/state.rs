@@ -24,7 +24,13 @@ impl Coupled {
         let (solids, loads) = (self.solids(), self.fluid.loads().map_err(io::Error::other)?);
         put_whole(out, solids.len() as u64)?;
         for (solid, load) in solids.iter().zip(&loads) {
-            let vectors = [&solid.centre, &solid.velocity, &solid.spin, &load.force, &load.torque];
+            let vectors = [
+                &solid.centre,
+                &solid.velocity,
+                &solid.angular_velocity,
+                &load.force,
+                &load.torque,
+            ];
             vectors.into_iter().try_for_each(|vector| put_vector(out, vector))?;
         }
         put_whole(out, self.setup().domain.cell_count() as u64)?;
@@ -50,7 +56,7 @@ impl Coupled {
         let mut loads = Vec::new();
         expect(whole(from)?, solids.len(), "grains")?;
         for solid in &mut solids {
-            (solid.centre, solid.velocity, solid.spin) =
+            (solid.centre, solid.velocity, solid.angular_velocity) =
                 (vector(from)?, vector(from)?, vector(from)?);
             loads.push(Load { force: vector(from)?, torque: vector(from)? });
         }

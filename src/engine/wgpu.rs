@@ -99,7 +99,7 @@ impl FluidEngine for KernelEngine {
             None => None,
             Some(cell) => {
                 let f = self.kernel.populations(&[cell])?;
-                f.first().and_then(|f| Some((cell, guard.symptom(f)?)))
+                f.first().and_then(|f| Some((cell, guard.failure(f)?)))
             }
         };
         Ok(Sight { mean_density: density, max_speed: bare_speed, broken })

@@ -7,7 +7,7 @@ use super::Warning;
 use crate::machine::free_bytes;
 use crate::output::records::columns;
 use crate::scene::format_run::FieldFormat;
-use crate::scene::{EngineKind, Record, Rhythm, Scene, What};
+use crate::scene::{EngineKind, OutputInterval, Record, Scene, What};
 
 /// Nobody writes more than this without having thought of it.
 const MUCH: f64 = 1e12;
@@ -41,9 +41,9 @@ pub fn bytes(scene: &Scene) -> f64 {
 }
 
 fn of_record(scene: &Scene, record: &Record) -> f64 {
-    let times = match record.rhythm {
-        Rhythm::Every(interval) => (scene.stop.steps / interval) as f64 + 1.0,
-        Rhythm::AtEnd => 1.0,
+    let times = match record.interval {
+        OutputInterval::Every(interval) => (scene.stop.steps / interval) as f64 + 1.0,
+        OutputInterval::AtEnd => 1.0,
     };
     times * at_a_time(scene, &record.what, columns(record).map_or(0, |columns| columns.len()))
 }

@@ -6,7 +6,7 @@ use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 
 use super::grains;
-use crate::scene::{Rhythm, Scene, What};
+use crate::scene::{OutputInterval, Scene, What};
 
 /// The models that are on, each with the reason.
 pub fn models(scene: &Scene) -> Vec<String> {
@@ -66,11 +66,13 @@ pub fn models(scene: &Scene) -> Vec<String> {
             What::Grains => "grains",
             What::GrainMeans => "means over the free grains",
         };
-        let interval = match record.rhythm {
-            Rhythm::Every(steps) => format!(" ({:.4e} s)", steps as f64 * scene.units.si_dt),
-            Rhythm::AtEnd => String::new(),
+        let interval = match record.interval {
+            OutputInterval::Every(steps) => {
+                format!(" ({:.4e} s)", steps as f64 * scene.units.si_dt)
+            }
+            OutputInterval::AtEnd => String::new(),
         };
-        models.push(format!("record {}: {what}, {}{interval}", record.name, record.rhythm));
+        models.push(format!("record {}: {what}, {}{interval}", record.name, record.interval));
     }
     models
 }

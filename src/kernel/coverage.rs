@@ -99,7 +99,7 @@ impl Coverage {
         for (cover, solid) in self.covers.iter().zip(&phase.solids) {
             for Touch { cell, epsilon, arm } in cover {
                 // u_s = U + ω × r
-                let velocity = solid.velocity + solid.spin.cross(arm);
+                let velocity = solid.velocity + solid.angular_velocity.cross(arm);
                 parts.push((*cell, *epsilon, *epsilon * velocity));
             }
         }

@@ -84,7 +84,7 @@ impl Tasks {
 
 impl Kernel {
     /// A fluid of density 1 at rest. `can_move`: whether the solids may be placed elsewhere later; it is
-    /// taken for true where one has a velocity or a spin. The set-up must have passed its checks. Errors
+    /// taken for true where one has a velocity or an angular velocity. The set-up must have passed its checks. Errors
     /// if the device cannot hold it.
     pub fn new(gpu: &Arc<Gpu>, setup: Setup, can_move: bool) -> Result<Self, KernelError> {
         let layout = Layout::new(&setup.domain, gpu.facts())?;
@@ -92,8 +92,10 @@ impl Kernel {
         let still = Vec3::zeros();
         let solids = match &setup.solid_phase {
             Some(phase) if can_move || !phase.solids.is_empty() => {
-                let moves =
-                    phase.solids.iter().any(|solid| solid.velocity != still || solid.spin != still);
+                let moves = phase
+                    .solids
+                    .iter()
+                    .any(|solid| solid.velocity != still || solid.angular_velocity != still);
                 let solids = if can_move || moves { SolidData::Moving } else { SolidData::Fixed };
                 Some(Solids::new(gpu, &Recipe { setup: &setup, layout, solids }, phase)?)
             }

@@ -41,7 +41,7 @@ struct Row {
     first: u32,
     velocity: [f32; 3],
     rows: u32,
-    spin: [f32; 3],
+    angular_velocity: [f32; 3],
     side: u32,
 }
 
@@ -206,7 +206,7 @@ fn row(solid: &Solid, room: &Room) -> Row {
         first: room.first,
         velocity: narrow(solid.velocity),
         rows: room.rows,
-        spin: narrow(solid.spin),
+        angular_velocity: narrow(solid.angular_velocity),
         side: room.side,
     }
 }

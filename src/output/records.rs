@@ -284,7 +284,7 @@ fn rows_of(scene: &Scene, engine: &Coupled, loads: &[Load]) -> Vec<[f64; 20]> {
         for (first, vector) in [
             (1, solid.centre * units.si_dx),
             (5, solid.velocity * units.si_velocity()),
-            (8, solid.spin * units.si_spin()),
+            (8, solid.angular_velocity * units.si_angular_velocity()),
             (11, load.force * units.si_force()),
             (14, load.torque * units.si_torque()),
             (17, displaced[number] * units.si_force()),

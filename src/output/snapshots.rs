@@ -10,7 +10,7 @@ use super::vtk::Array;
 use super::{atomic, grain_means, names, npy, vtk};
 use crate::engine::{Block, CellState, Coupled};
 use crate::scene::format_run::FieldFormat;
-use crate::scene::{Record, Rhythm, Scene, What};
+use crate::scene::{OutputInterval, Record, Scene, What};
 
 /// Writes what `record` wants for now into `folder/<its name>/`, and its list of times.
 pub fn take(record: &Record, scene: &Scene, engine: &Coupled, folder: &Path) -> io::Result<()> {
@@ -41,9 +41,9 @@ pub fn take(record: &Record, scene: &Scene, engine: &Coupled, folder: &Path) -> 
         }
         What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => return Ok(()),
     };
-    let times: Vec<u64> = match record.rhythm {
-        Rhythm::Every(interval) => (0..=step / interval).map(|i| i * interval).collect(),
-        Rhythm::AtEnd => vec![step],
+    let times: Vec<u64> = match record.interval {
+        OutputInterval::Every(interval) => (0..=step / interval).map(|i| i * interval).collect(),
+        OutputInterval::AtEnd => vec![step],
     };
     let entry = |&step: &u64| {
         (scene.units.si_dt * step as f64, format!("{name}/{}", file(name, step, suffix)))

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::Coupled;
 use crate::output::records::{Recorder, watched_row};
-use crate::scene::{Rhythm, Scene, Steady};
+use crate::scene::{OutputInterval, Scene, Steady};
 
 /// Samples that are kept at most. With twice as many rows every other one is a sample, and so on: a criterion
 /// looks at 128 to 256 times of a long run, however close its rows are.
@@ -143,9 +143,9 @@ impl Watch {
     /// From the start, or from where a checkpoint was made.
     pub(super) fn begin(scene: &Scene, saved: Option<&Saved>) -> Option<Self> {
         let steady = scene.stop.steady.clone()?;
-        let interval = match scene.records[steady.record].rhythm {
-            Rhythm::Every(interval) => interval,
-            Rhythm::AtEnd => 1,
+        let interval = match scene.records[steady.record].interval {
+            OutputInterval::Every(interval) => interval,
+            OutputInterval::AtEnd => 1,
         };
         let least_rows = steps_of_sound(scene).div_ceil(interval);
         let (history, since) = saved.map_or_else(Default::default, Saved::unpack);
@@ -157,7 +157,7 @@ impl Watch {
     pub(super) fn look(&mut self, recorders: &[Recorder], steps: u64) {
         let recorder = &recorders[self.steady.record];
         if let Some(row) =
-            recorder.watched.as_ref().filter(|_| recorder.record.rhythm.is_due(steps))
+            recorder.watched.as_ref().filter(|_| recorder.record.interval.is_due(steps))
         {
             self.take(row[self.steady.column]);
         }

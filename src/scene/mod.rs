@@ -35,7 +35,7 @@ pub use changes::{differ, preset_changes};
 pub use check::checkpoint::Interval;
 pub use check::free::FreePart;
 pub use check::grains::Attachment;
-pub use check::records::{Record, Rhythm, What};
+pub use check::records::{OutputInterval, Record, What};
 pub use check::stop::{Steady, Stop};
 pub use format_run::EngineKind;
 pub use trouble::{SceneError, Trouble};

@@ -167,15 +167,15 @@ fn grain_that_starts_spinning_slows_down_as_the_exact_curve_says() {
     let mut budget = Budget::kernel(1_000_000);
     let scene = scene(SPINNING, &[]);
     let mut kernel = kernel_engine(&scene);
-    let spin = |kernel: &Coupled| kernel.solids()[0].spin.z;
-    let start = spin(&kernel);
+    let angular_velocity = |kernel: &Coupled| kernel.solids()[0].angular_velocity.z;
+    let start = angular_velocity(&kernel);
     // T = 0.1, 0.2 and 0.3: 48 steps each, since ν = 1/30 and a = 4.
     let rows = golden_rows("free_start/exact.csv");
     for time in ["0.1", "0.2", "0.3"] {
         budget.spend(48 * scene.setup.domain.cell_count() as u64);
         kernel.step(48).unwrap();
         let row = rows.iter().find(|row| &row[0] == "2.65" && &row[1] == time).unwrap();
-        let (found, exact) = (spin(&kernel) / start, row[2].parse::<f64>().unwrap());
+        let (found, exact) = (angular_velocity(&kernel) / start, row[2].parse::<f64>().unwrap());
         println!("T = {time}: spin over its start {found:.4}, exact {exact:.4}");
         // As in tests/oracle/free_start.rs.
         assert!((found - exact).abs() < 0.015, "T = {time}: {found:.4} of the spin, exact {exact}");
@@ -266,7 +266,7 @@ fn saved_state_goes_on_bit_for_bit() {
     ];
     for scene in scenes {
         let cells = scene.setup.domain.cell_count() as u64;
-        // Also at the start, where the state is kept in another form, and off the guard's rhythm.
+        // Also at the start, where the state is kept in another form, and off the guard's interval.
         for first in [0, 1, 37] {
             budget.spend((first + 2 * 30) * cells);
             let mut straight = kernel_engine(&scene);
@@ -313,7 +313,7 @@ fn guard_stops_a_run_where_and_why_the_oracles_does() {
     let expected = stopped(&mut open(&scene, None, false).unwrap());
     println!("{found}\n{expected}");
     assert_eq!((found.step, found.cell), (expected.step, expected.cell));
-    assert_eq!(std::mem::discriminant(&found.symptom), std::mem::discriminant(&expected.symptom));
+    assert_eq!(std::mem::discriminant(&found.failure), std::mem::discriminant(&expected.failure));
     assert_eq!(std::mem::discriminant(&found.cause), std::mem::discriminant(&expected.cause));
 }
 

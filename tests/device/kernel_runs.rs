@@ -136,9 +136,14 @@ fn random_setup() -> impl Strategy<Value = (Setup, u64)> {
             setup.guard.max_speed = 10.0;
             let solids: Vec<Solid> = solids
                 .into_iter()
-                .map(|(centre, radius, velocity, spin, held)| {
+                .map(|(centre, radius, velocity, angular_velocity, held)| {
                     let share = if held { 0.0 } else { 1.0 };
-                    sphere(centre, radius, share * Vec3::from(velocity), share * Vec3::from(spin))
+                    sphere(
+                        centre,
+                        radius,
+                        share * Vec3::from(velocity),
+                        share * Vec3::from(angular_velocity),
+                    )
                 })
                 .collect();
             if !solids.is_empty() {

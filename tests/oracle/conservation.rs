@@ -47,7 +47,7 @@ prop_compose! {
             let centre = Vec3::from_fn(|axis, _| random.between(0.0, CELLS[axis] as f64));
             Solid {
                 velocity: random.vector(0.05),
-                spin: random.vector(0.02),
+                angular_velocity: random.vector(0.02),
                 ..Solid::fixed_sphere(centre, random.between(0.4, 2.4))
             }
         }).collect();

@@ -290,7 +290,7 @@ fn free_sphere_in_shear_turns_at_half_the_rate() {
     .unwrap();
     run(&mut budget, &mut solver, 300);
     let grain = &solver.grains().grains()[0];
-    let turned = grain.spin / (0.5 * rate);
+    let turned = grain.angular_velocity / (0.5 * rate);
     // What walls and images change is of the order of the solid fraction, 1.5 %, times the share of
     // the shear that they see: well below 1 %, which is also what PS lags behind (7.5 nu/a² of the
     // stress of a solid that does not turn with the fluid, here nearly none).

@@ -58,7 +58,7 @@ fn lagged_inertia_of_the_fluid_inside_is_its_mass_and_moment_times_the_last_chan
     let mut grains = one_grain(Faces::PERIODIC, middle(), CouplingSettings::default());
     assert_load(&grains.outside_loads(&[FIRST])[0], FIRST, "before the first step");
     grains.step(&[FIRST]).unwrap();
-    // The step changes velocity and spin by F/m_s and T/I_s; m_f/m_s = I_f/I_s is 1/2 of these loads.
+    // The step changes velocity and angular velocity by F/m_s and T/I_s; m_f/m_s = I_f/I_s is 1/2 of these loads.
     let expected = Load {
         force: SECOND.force + 0.5 * FIRST.force,
         torque: SECOND.torque + 0.5 * FIRST.torque,

@@ -1,4 +1,4 @@
-//! Free grains that start with a velocity or a spin: against the exact motion of a lone sphere in Stokes
+//! Free grains that start with a velocity or an angular velocity: against the exact motion of a lone sphere in Stokes
 //! flow, and what momentum a scene has at its start.
 //!
 //! The exact curves are `golden/free_start/exact.csv`, made and derived by `exact.py` beside it. At the
@@ -78,15 +78,21 @@ fn at_times(
 #[test]
 fn free_sphere_that_starts_spinning_slows_down_as_the_exact_curve_says() {
     let mut budget = Budget::oracle(2_100_000);
-    let spin = 1e-4;
+    let angular_velocity = 1e-4;
     for ratio in [1.0, 2.65] {
         // A box of three diameters; half of it, with a mirror plane through the equator.
-        let grain = Grain::sphere(Vec3::zeros(), RADIUS, ratio).spinning(Vec3::new(0.0, 0.0, spin));
+        let grain = Grain::sphere(Vec3::zeros(), RADIUS, ratio).spinning(Vec3::new(
+            0.0,
+            0.0,
+            angular_velocity,
+        ));
         let faces = Faces { z: [Face::FreeSlip; 2], ..Faces::PERIODIC };
         let mut solver = lone_grain([24, 24, 12], faces, grain);
         let exact = exact(ratio);
         let times: Vec<f64> = exact.iter().map(|row| row[0]).collect();
-        let found = at_times(&mut budget, &mut solver, &times, |grain| grain.spin.z / spin);
+        let found = at_times(&mut budget, &mut solver, &times, |grain| {
+            grain.angular_velocity.z / angular_velocity
+        });
         println!("ratio {ratio}: spin over its start {found:.4?}");
         for ([time, expected, _], found) in exact.into_iter().zip(found) {
             // At T = 0.02, ten steps after the start, the layer of fluid that turns with the sphere is
@@ -156,7 +162,7 @@ fn covered_cells_start_with_their_solids_whether_free_or_prescribed() {
         let (radius, v) = (random.between(2.0, 3.0), random.vector(0.05));
         spheres.push((radius, v));
         let grain = Grain::sphere(place + random.vector(0.5), radius, 3.0).moving(v);
-        // A spin about a centre between the cells' would add the little that cells' centres are off the
+        // An angular velocity about a centre between the cells' would add the little that cells' centres are off the
         // middle of what is covered of them.
         grains.push(grain);
     }
@@ -172,7 +178,7 @@ fn covered_cells_start_with_their_solids_whether_free_or_prescribed() {
 
     let solids = grains.iter().map(|grain| Solid {
         velocity: grain.velocity,
-        spin: grain.spin,
+        angular_velocity: grain.angular_velocity,
         ..Solid::fixed_sphere(grain.position, grain.radius)
     });
     let phase = SolidPhase { solids: solids.collect(), ..SolidPhase::default() };

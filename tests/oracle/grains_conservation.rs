@@ -55,7 +55,7 @@ fn momentum(grains: &[Grain]) -> Vec3 {
 
 /// About the origin: of the centres' motion and of the spins.
 fn angular_momentum(grains: &[Grain]) -> Vec3 {
-    let of = |g: &Grain| g.mass * g.position.cross(&g.velocity) + g.inertia * g.spin;
+    let of = |g: &Grain| g.mass * g.position.cross(&g.velocity) + g.inertia * g.angular_velocity;
     grains.iter().map(of).sum()
 }
 
@@ -65,7 +65,7 @@ fn gauges(system: &GrainSystem) -> (f64, f64) {
     for (grain, load) in system.grains().iter().zip(system.contact_loads()) {
         let p = grain.mass * grain.velocity.norm() + SUBSTEP * load.force.norm();
         linear += p;
-        angular += p * grain.position.norm() + grain.inertia * grain.spin.norm();
+        angular += p * grain.position.norm() + grain.inertia * grain.angular_velocity.norm();
     }
     // What a grain receives from several others may cancel in its load.
     for force in system.pairs().iter().filter_map(|pair| pair.force) {
@@ -141,7 +141,7 @@ proptest! {
         let offset = random.vector(1.0).normalize() * random.between(0.5, 1.0);
         let mut motions = || [0; 2].map(|_| Motion {
             velocity: random.vector(1.0),
-            spin: random.vector(1.0),
+            angular_velocity: random.vector(1.0),
         });
         let (middle, end) = (motions(), motions());
         let seen = |flip: bool| {

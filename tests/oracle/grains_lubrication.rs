@@ -101,7 +101,7 @@ fn a_sphere_that_drifts_to_a_wall_loses_the_speed_of_the_closed_form() {
     system.edit(|grains, _| grains[0].velocity = sideways).unwrap();
     system.step(1e-4, &[]).unwrap();
     assert_eq!(system.grains()[0].velocity, sideways);
-    assert_eq!(system.grains()[0].spin, Vec3::zeros());
+    assert_eq!(system.grains()[0].angular_velocity, Vec3::zeros());
 }
 
 #[test]

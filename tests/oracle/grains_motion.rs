@@ -162,7 +162,9 @@ fn free_flight_and_steady_torque_are_exact() {
     let round_off = 100.0 * f64::EPSILON * 20.0;
     assert!((after.position - (grain.position + v * t + 0.5 * t * t * a)).norm() < round_off);
     assert!((after.velocity - (v + a * t)).norm() < round_off);
-    assert!((after.spin - (omega + load.torque / grain.inertia * t)).norm() < round_off);
+    assert!(
+        (after.angular_velocity - (omega + load.torque / grain.inertia * t)).norm() < round_off
+    );
     // Turning about one axis: the angle is exact too.
     let mut system = GrainSystem::new(setup, vec![grain], Vec::new()).unwrap();
     for _ in 0..10 {
@@ -185,7 +187,7 @@ fn held_grains_keep_their_motion_and_push_the_others() {
     let load = Load { force: Vec3::y(), torque: Vec3::y() };
     system.step(0.5, &[load, Load::default()]).unwrap();
     let [ram, hit] = [system.grains()[0], system.grains()[1]];
-    assert_eq!((ram.velocity, ram.spin), (Vec3::x(), Vec3::z()));
+    assert_eq!((ram.velocity, ram.angular_velocity), (Vec3::x(), Vec3::z()));
     assert!((ram.position.x - 0.5).abs() < 1e-14);
     // (1 + e) times the ram's speed, to the error of 25 sub-steps per contact.
     assert!(

@@ -145,7 +145,7 @@ fn contacts_and_their_springs_pass_through_periodic_faces() {
              home: a grain is off by {off}"
         );
         assert!((two.velocity - drift - one.velocity).norm() < 1e-8);
-        assert!((two.spin - one.spin).norm() < 1e-8);
+        assert!((two.angular_velocity - one.angular_velocity).norm() < 1e-8);
         let sides = adrift.setup().sides;
         let inside = sides.wrap(&two.position);
         assert!((0..3).all(|i| (0.0..=sides.lengths[i].unwrap()).contains(&inside[i])));

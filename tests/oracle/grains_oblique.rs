@@ -56,10 +56,11 @@ fn elastic_impacts_that_stick_return_the_surface_velocity_of_the_closed_form() {
                 }
                 let [low, high] = [system.grains()[0], system.grains()[1]];
                 // u_x = v_x - ω_y R at the lower point of the upper sphere, and twice by symmetry
-                (high.velocity.x - low.velocity.x) - (high.spin.y + low.spin.y)
+                (high.velocity.x - low.velocity.x)
+                    - (high.angular_velocity.y + low.angular_velocity.y)
             } else {
                 let grain = bounced(sphere(1.0).moving(velocity), law, 2 * FINE);
-                grain.velocity.x - grain.spin.y
+                grain.velocity.x - grain.angular_velocity.y
             };
             let found = after / (slope * speed);
             let exact = (PI * (3.5_f64 * ratio).sqrt()).cos();
@@ -107,7 +108,7 @@ fn chung_and_ooi_4_gross_sliding_follows_its_closed_forms() {
                 "{degrees} degrees: tangential restitution {e_t}, closed form for sliding {exact}"
             );
             // ω = 2.5 μ (1 + e) v_n/R, less the overlap in the arm: v_n t_c/(π R) at most.
-            let omega = after.spin.y;
+            let omega = after.angular_velocity.y;
             let exact = 2.5 * mu * (1.0 + e) * normal / grain.radius;
             let arm = speed * law.duration(grain.mass) / (PI * grain.radius);
             assert!(
@@ -132,7 +133,7 @@ fn chung_and_ooi_4_gross_sliding_agrees_with_benchmark_and_experiment() {
         let (found, scale) = if row[0].starts_with("et") {
             (after.velocity.x / (speed * degrees.to_radians().sin()), 1.0)
         } else {
-            (-after.spin.y, 600.0)
+            (-after.angular_velocity.y, 600.0)
         };
         // Two digitisations differ by 2% of full scale. The experiment's spins scatter by up to 8%,
         // and lie as far from the benchmark's curve.
@@ -158,12 +159,14 @@ fn chung_and_ooi_7_equal_spins_of_two_spheres_roll_off_each_other_unchanged() {
         let (density, mu, e, radius, speed) =
             (number(3), number(4), number(5), number(6), number(7));
         for omega in [0.175, 1.0, 5.0, 10.0, 24.0] {
-            let spin = Vec3::new(0.0, omega, 0.0);
+            let angular_velocity = Vec3::new(0.0, omega, 0.0);
             let one = Grain::sphere(Vec3::new(-radius, 0.0, 0.0), radius, density)
                 .moving(Vec3::new(speed, 0.0, 0.0))
-                .spinning(spin);
-            let two =
-                Grain { position: -one.position, ..one.moving(-one.velocity).spinning(-spin) };
+                .spinning(angular_velocity);
+            let two = Grain {
+                position: -one.position,
+                ..one.moving(-one.velocity).spinning(-angular_velocity)
+            };
             let duration = 7e-4; // Hertz: 7.3e-4 s at test 2's E and speed
             let law = ContactLaw::from_duration_and_restitution(duration, e, 0.5 * one.mass);
             let law = law.unwrap().with_friction(mu).unwrap();
@@ -171,7 +174,7 @@ fn chung_and_ooi_7_equal_spins_of_two_spheres_roll_off_each_other_unchanged() {
                 GrainSystem::new(GrainSetup::new(law), vec![one, two], Vec::new()).unwrap();
             system.step(2.0 * duration, &[]).unwrap();
             for (grain, sign) in system.grains().iter().zip([-1.0, 1.0]) {
-                assert_eq!(grain.spin, -sign * spin, "nothing turns them");
+                assert_eq!(grain.angular_velocity, -sign * angular_velocity, "nothing turns them");
                 assert_eq!((grain.velocity.y, grain.velocity.z), (0.0, 0.0));
                 let rebound = sign * grain.velocity.x / speed;
                 assert!((rebound - e).abs() < 2.7e-3, "25 sub-steps per contact: {rebound}");
@@ -189,8 +192,10 @@ fn rough(coefficient: f64) -> ContactLaw {
 #[test]
 fn a_sliding_contact_is_on_coulomb_s_cone_and_its_spring_agrees() {
     let geometry = Geometry::of_spheres(&Vec3::new(0.0, 0.0, 1.9), [1.0, 1.0]);
-    let motion =
-        |x: f64, z: f64| Motion { velocity: Vec3::new(x, 0.4 * x, z), spin: Vec3::zeros() };
+    let motion = |x: f64, z: f64| Motion {
+        velocity: Vec3::new(x, 0.4 * x, z),
+        angular_velocity: Vec3::zeros(),
+    };
     for (slide, approach) in [(0.9, 0.2), (0.9, -0.2), (-3.0, 0.0), (0.5, -2.0)] {
         let relative = Relative::new(&geometry, [&motion(slide, approach), &motion(0.0, 0.0)]);
         // In contact before: all of the sub-step counts.
@@ -231,10 +236,10 @@ fn springs_turn_with_a_pair_that_turns_as_a_rigid_body() {
         let mut force = PairForce::default();
         for step in 1..=steps {
             let geometry = Geometry::of_spheres(&(turned(f64::from(step) * dt) * offset), [1.0; 2]);
-            // Every point moves with Ω × x: no relative velocity at the contact, spin Ω of both.
+            // Every point moves with Ω × x: no relative velocity at the contact, angular velocity Ω of both.
             let motions = [-0.5, 0.5].map(|side| {
                 let centre = side * 1.9 * geometry.normal;
-                Motion { velocity: omega.cross(&centre), spin: omega }
+                Motion { velocity: omega.cross(&centre), angular_velocity: omega }
             });
             let relative = Relative::new(&geometry, [&motions[0], &motions[1]]);
             assert!(
@@ -261,7 +266,7 @@ fn springs_turn_with_a_pair_that_turns_as_a_rigid_body() {
 fn a_contact_that_began_within_the_sub_step_counts_from_its_beginning() {
     // Approach at 2, overlap 0.1: touched 0.05 before the end of a sub-step of 0.2, a quarter of it.
     let geometry = Geometry::of_spheres(&Vec3::new(0.0, 0.0, 1.9), [1.0, 1.0]);
-    let motion = |velocity: Vec3| Motion { velocity, spin: Vec3::zeros() };
+    let motion = |velocity: Vec3| Motion { velocity, angular_velocity: Vec3::zeros() };
     let velocity = Vec3::new(0.6, 0.0, 2.0);
     let relative = Relative::new(&geometry, [&motion(velocity), &motion(Vec3::zeros())]);
     let (law, dt) = (rough(1e3), 0.2);

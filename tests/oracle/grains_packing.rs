@@ -67,7 +67,7 @@ fn a_thousand_spheres_are_packed_at_porosity_040_in_the_box_of_the_paper_s_secti
     );
     assert!(packing.grains.iter().all(|grain| {
         (0..3).all(|i| (0.0..=lengths[i]).contains(&grain.position[i]))
-            && grain.spin == Vec3::zeros()
+            && grain.angular_velocity == Vec3::zeros()
     }));
     // Evenly spread: each octant holds an eighth, to four times the scatter of independent places.
     for octant in 0..8 {

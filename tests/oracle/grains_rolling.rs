@@ -44,8 +44,8 @@ fn sphere(system: &GrainSystem) -> Grain {
 
 /// Velocity of the sphere's surface where it touches the floor, along x.
 fn slip(system: &GrainSystem) -> f64 {
-    let Grain { velocity, spin, position, .. } = sphere(system);
-    velocity.x - spin.y * position.z
+    let Grain { velocity, angular_velocity, position, .. } = sphere(system);
+    velocity.x - angular_velocity.y * position.z
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn a_sliding_sphere_rolls_in_the_end_at_five_sevenths_of_its_speed() {
         );
         // ω = (5/2) μ g t/R
         assert!(
-            (sphere(&system).spin.y - 2.5 * mu * part * time).abs() < 1e-4,
+            (sphere(&system).angular_velocity.y - 2.5 * mu * part * time).abs() < 1e-4,
             "a sliding sphere after {part} of the time to roll: its angular velocity is not 5/2 μ g t/a"
         );
     }
@@ -141,7 +141,7 @@ fn a_sphere_that_cannot_roll_stays_below_the_angle_of_friction_and_slides_above(
     for (tangent, stays) in [(0.5 * mu, true), (0.99 * mu, true), (1.05 * mu, false)] {
         let mut system = on_slope(tangent, block, Vec3::zeros());
         system.step(1.0, &[]).unwrap();
-        let Grain { position, velocity, spin, .. } = sphere(&system);
+        let Grain { position, velocity, angular_velocity, .. } = sphere(&system);
         if stays {
             // The springs start undrawn and swing over: near the limit it slips a little at first.
             assert!(
@@ -149,9 +149,9 @@ fn a_sphere_that_cannot_roll_stays_below_the_angle_of_friction_and_slides_above(
                 "slope {tangent}: a sphere that cannot roll ought to stay and has come to {position}"
             );
             assert!(
-                velocity.norm() < 1e-12 && spin.norm() < 1e-12,
+                velocity.norm() < 1e-12 && angular_velocity.norm() < 1e-12,
                 "slope {tangent}: a sphere that cannot roll ought to be at rest, and moves at \
-                 {velocity} and turns at {spin}"
+                 {velocity} and turns at {angular_velocity}"
             );
         } else {
             let exact = (tangent - mu) / (1.0 + tangent * tangent).sqrt();
@@ -160,8 +160,8 @@ fn a_sphere_that_cannot_roll_stays_below_the_angle_of_friction_and_slides_above(
                 "slope {tangent}: a sphere that cannot roll slides at {velocity}, closed form {exact} along x"
             );
             assert!(
-                spin.norm() < 1e-3,
-                "slope {tangent}: a sphere that ought to slide without rolling turns at {spin}"
+                angular_velocity.norm() < 1e-3,
+                "slope {tangent}: a sphere that ought to slide without rolling turns at {angular_velocity}"
             );
         }
     }
@@ -184,7 +184,7 @@ fn rolling_resistance_holds_a_sphere_up_to_its_slope_and_brakes_one_that_rolls()
     let mut system = on_slope(0.0, resisting, Vec3::zeros());
     let rolling = |grain: &mut Grain| {
         grain.velocity.x = 1.0;
-        grain.spin.y = 1.0;
+        grain.angular_velocity.y = 1.0;
     };
     system.edit(|grains, _| rolling(&mut grains[0])).unwrap();
     system.step(5.0, &[]).unwrap();
@@ -258,15 +258,16 @@ fn rolling_resistance_of_a_pair_is_limited_by_its_reduced_radius_and_twisting_is
     // Radii 1 and 3, pressed together by 0.1: R_r = 3/4, and couples are opposite.
     let geometry = Geometry::of_spheres(&Vec3::new(0.0, 0.0, 3.9), [1.0, 3.0]);
     let pair = ContactLaw::new(2.0, 0.0).unwrap().with_rolling(0.2).unwrap();
-    let motion = |spin: Vec3| Motion { velocity: Vec3::zeros(), spin };
-    let exert = |spin: Vec3| {
-        let relative = Relative::new(&geometry, [&motion(spin), &motion(Vec3::zeros())]);
+    let motion = |angular_velocity: Vec3| Motion { velocity: Vec3::zeros(), angular_velocity };
+    let exert = |angular_velocity: Vec3| {
+        let relative =
+            Relative::new(&geometry, [&motion(angular_velocity), &motion(Vec3::zeros())]);
         let mut memory = None;
         let forces = contact_force(&pair, &geometry, [&relative; 2], 10.0, &mut memory).unwrap();
         (forces.torques, memory.unwrap().rolling)
     };
     let (torques, spring) = exert(Vec3::new(5.0, 0.0, 0.0));
-    // μ_r R_r k δ against the spin; couple per radian (2/5) k R_r²
+    // μ_r R_r k δ against the angular velocity; couple per radian (2/5) k R_r²
     assert!(
         (torques[0] + Vec3::new(0.2 * 0.75 * 0.2, 0.0, 0.0)).norm() < 1e-15,
         "torques of rolling resistance {torques:?}: not the limit, friction of rolling times \
@@ -282,7 +283,7 @@ fn rolling_resistance_of_a_pair_is_limited_by_its_reduced_radius_and_twisting_is
 
     // A sphere that spins like a top on the floor goes on spinning.
     let mut system = on_slope(0.0, law(0.5).with_rolling(0.3).unwrap(), Vec3::zeros());
-    system.edit(|grains, _| grains[0].spin = Vec3::z()).unwrap();
+    system.edit(|grains, _| grains[0].angular_velocity = Vec3::z()).unwrap();
     system.step(1.0, &[]).unwrap();
-    assert_eq!(sphere(&system).spin, Vec3::z());
+    assert_eq!(sphere(&system).angular_velocity, Vec3::z());
 }

@@ -53,9 +53,9 @@ fn a_pyramid_at_rest_stays_at_rest_for_a_hundred_thousand_sub_steps() {
             now.velocity.norm()
         );
         assert!(
-            turn < 1e-7 && now.spin.norm() < 1e-12,
+            turn < 1e-7 && now.angular_velocity.norm() < 1e-12,
             "a grain of a pyramid at rest has turned by {turn:e}, its angular velocity is {:e}",
-            now.spin.norm()
+            now.angular_velocity.norm()
         );
     }
     let weight: f64 = start.iter().map(|grain| grain.mass).sum();
@@ -117,7 +117,7 @@ fn permuted_numbers_give_the_same_motion_over_the_first_contacts() {
             "grain {number}: its velocity depends on how the grains are numbered"
         );
         assert!(
-            (one.spin - two.spin).norm() < 1e-11,
+            (one.angular_velocity - two.angular_velocity).norm() < 1e-11,
             "grain {number}: its angular velocity depends on how the grains are numbered"
         );
     }

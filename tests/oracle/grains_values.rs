@@ -86,8 +86,8 @@ fn couple_of_a_new_rolling_contact_is_spring_and_dashpot_times_the_square_of_the
         let rolling = law.rolling.unwrap();
         let geometry = Geometry::of_spheres(&Vec3::new(7.5, 0.0, 0.0), [2.0, 6.0]);
         let turn = Vec3::new(0.0, 0.3, -0.2);
-        let still = Motion { velocity: Vec3::zeros(), spin: Vec3::zeros() };
-        let moving = Motion { velocity: Vec3::new(speed, 0.0, 0.0), spin: turn };
+        let still = Motion { velocity: Vec3::zeros(), angular_velocity: Vec3::zeros() };
+        let moving = Motion { velocity: Vec3::new(speed, 0.0, 0.0), angular_velocity: turn };
         let relative = Relative::new(&geometry, [&moving, &still]);
         let pair = contact_force(&law, &geometry, [&relative, &relative], 0.25, &mut None).unwrap();
         // M = -R_r² (k_r θ + γ_r ω w), and the arms turn nothing, since the force is along the normal

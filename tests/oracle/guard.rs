@@ -5,7 +5,7 @@ use crate::common;
 
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, DomainError, Face, Faces};
-use psmrt_reference::guard::{Cause, GuardSettings, Stopped, Symptom};
+use psmrt_reference::guard::{Cause, Failure, GuardSettings, Stopped};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SetupError, SolidPhase};
@@ -118,7 +118,7 @@ fn body_force_that_nothing_holds_back_is_named() {
         "the fall reaches the guard's limit at step 500, and was stopped at {}",
         stopped.step
     );
-    assert!(matches!(stopped.symptom, Symptom::TooFast(_)));
+    assert!(matches!(stopped.failure, Failure::TooFast(_)));
 }
 
 #[test]
@@ -213,7 +213,7 @@ fn impossible_setups_are_refused_by_key_and_value() {
         (fluid().with_body_force(along_x(f64::NAN)), "body force"),
         (with(sphere(0.0)), "radius = 0"),
         (with(sphere(f64::INFINITY)), "radius = inf"),
-        (with(Solid { spin: along_x(f64::NAN), ..sphere(1.0) }), "spin = NaN"),
+        (with(Solid { angular_velocity: along_x(f64::NAN), ..sphere(1.0) }), "spin = NaN"),
         (with(Solid::fixed_cells(vec![(64, 0.5)])), "cell 64"),
         (with(Solid::fixed_cells(vec![(0, 1.5)])), "solid fraction = 1.5"),
     ];

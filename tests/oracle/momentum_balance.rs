@@ -42,7 +42,7 @@ fn loads_with_the_displaced_force_close_the_balance_of_each_step_to_round_off() 
         let place = Vec3::new(3.1, 4.2, 5.3);
         let moving = Solid {
             velocity: Vec3::new(0.03, 0.02, -0.04),
-            spin: Vec3::new(0.0, 0.01, 0.02),
+            angular_velocity: Vec3::new(0.0, 0.01, 0.02),
             ..Solid::fixed_sphere(Vec3::new(9.2, 8.8, 0.7), 2.3)
         };
         let beside = Solid::fixed_sphere(Vec3::new(9.2, 5.0, 0.7), 2.1);

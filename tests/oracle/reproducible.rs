@@ -18,7 +18,7 @@ fn result_on(threads: usize) -> (Vec<Populations>, Vec<Load>) {
     let faces = Faces { x: [open; 2], z: [Face::wall(), lid], ..Faces::PERIODIC };
     let sphere = |x: f64, radius| Solid {
         velocity: Vec3::new(0.02, 0.01, -0.01),
-        spin: Vec3::new(0.0, 0.01, 0.0),
+        angular_velocity: Vec3::new(0.0, 0.01, 0.0),
         ..Solid::fixed_sphere(Vec3::new(x, 0.7 * x, 8.3), radius)
     };
     let phase =

@@ -100,7 +100,7 @@ fn approach(gap: f64, room: f64, budget: &mut Budget) -> f64 {
         shape: Shape::Sphere { radius },
         centre: Vec3::new(0.0, 0.0, radius + gap),
         velocity: Vec3::new(0.0, 0.0, -speed),
-        spin: Vec3::zeros(),
+        angular_velocity: Vec3::zeros(),
     };
     let phase = SolidPhase { solids: vec![sphere], ..Default::default() };
     let setup = Setup::fluid(domain, dhumieres(TAU)).with_solids(phase);

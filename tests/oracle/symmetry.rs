@@ -91,7 +91,7 @@ impl Symmetry {
             shape: solid.shape.clone(),
             centre: self.point(&solid.centre, cells),
             velocity: self.vector(&solid.velocity),
-            spin: self.axial(&solid.spin),
+            angular_velocity: self.axial(&solid.angular_velocity),
         }
     }
 }
@@ -174,11 +174,11 @@ fn busy_box(faces: Faces, collision: Collision, operator: SolidOperator) -> Setu
     let domain = Domain::new([6, 5, 4], faces).unwrap();
     let first = Solid {
         velocity: Vec3::new(0.02, -0.01, 0.03),
-        spin: Vec3::new(0.01, 0.02, -0.03),
+        angular_velocity: Vec3::new(0.01, 0.02, -0.03),
         ..Solid::fixed_sphere(Vec3::new(1.2, 2.3, 0.9), 1.7)
     };
     let second = Solid {
-        spin: Vec3::new(-0.02, 0.0, 0.01),
+        angular_velocity: Vec3::new(-0.02, 0.0, 0.01),
         ..Solid::fixed_sphere(Vec3::new(3.9, 3.6, 2.2), 1.1)
     };
     let phase = SolidPhase { solids: vec![first, second], operator, ..SolidPhase::default() };

@@ -34,10 +34,10 @@ fn spinning(
     cells: [usize; 3],
     faces: Faces,
     (centre, radius): (Vec3, f64),
-    spin: Vec3,
+    angular_velocity: Vec3,
     collision: Collision,
 ) -> Setup {
-    let solids = vec![Solid { spin, ..Solid::fixed_sphere(centre, radius) }];
+    let solids = vec![Solid { angular_velocity, ..Solid::fixed_sphere(centre, radius) }];
     Setup::fluid(Domain::new(cells, faces).unwrap(), collision)
         .with_solids(SolidPhase { solids, ..SolidPhase::default() })
 }
@@ -54,8 +54,9 @@ fn torque_in_a_simple_cubic_array_converges_to_theory_and_opposes_the_spin() {
         let centre = Vec3::new(diameter, diameter, 0.0);
         // Surface speed for a Reynolds number ω a²/ν of 0.01: inertia enters as its square.
         let omega = 0.01 * nu / (a * a);
-        let spin = Vec3::new(0.0, 0.0, omega);
-        let setup = spinning([side, side, side / 2], faces, (centre, a), spin, dhumieres(TAU));
+        let angular_velocity = Vec3::new(0.0, 0.0, omega);
+        let setup =
+            spinning([side, side, side / 2], faces, (centre, a), angular_velocity, dhumieres(TAU));
         let mut solver = Solver::new(setup).unwrap();
         // The slowest mode falls by e in (L/2π)²/ν steps. Three such windows below 1e-4 leave 1e-5.
         let window = (side as f64 / (2.0 * PI)).powi(2) / nu;
@@ -87,8 +88,9 @@ fn torque_is_the_same_about_each_axis_and_comes_with_no_force() {
     let (side, a, omega) = (12, 3.0, 1e-4);
     for collision in [Collision::Srt { tau: TAU }, dhumieres(TAU)] {
         let [x, y, z] = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| {
-            let (centre, spin) = (Vec3::repeat(6.0), omega * axis);
-            let setup = spinning([side; 3], Faces::PERIODIC, (centre, a), spin, collision);
+            let (centre, angular_velocity) = (Vec3::repeat(6.0), omega * axis);
+            let setup =
+                spinning([side; 3], Faces::PERIODIC, (centre, a), angular_velocity, collision);
             let mut solver = Solver::new(setup).unwrap();
             budget.run(&mut solver, 250);
             let Load { force, torque } = solver.loads()[0];
@@ -119,10 +121,11 @@ fn sphere_across_periodic_faces_feels_what_it_feels_in_the_middle_of_the_box() {
     let mut budget = Budget::oracle(1_100_000);
     let cells = [10, 12, 14];
     // Off the nodes, spinning about no axis in particular, in a stream that grows.
-    let (radius, spin) = (3.2, Vec3::new(1e-3, -2e-3, 3e-3));
+    let (radius, angular_velocity) = (3.2, Vec3::new(1e-3, -2e-3, 3e-3));
     let loads = |moved: [f64; 3], budget: &mut Budget| {
         let centre = Vec3::new(5.3, 6.1, 7.4) + Vec3::from(moved);
-        let setup = spinning(cells, Faces::PERIODIC, (centre, radius), spin, dhumieres(TAU));
+        let setup =
+            spinning(cells, Faces::PERIODIC, (centre, radius), angular_velocity, dhumieres(TAU));
         let setup = setup.with_body_force(Vec3::new(1e-5, 2e-5, -1e-5));
         let mut solver = Solver::new(setup).unwrap();
         budget.run(&mut solver, 100);

@@ -117,9 +117,9 @@ pub fn given_fractions(random: &mut Random, moving: bool) -> Vec<Solid> {
                 }
             }
             let velocity = if moving { random.vector(0.05) } else { Vec3::zeros() };
-            let spin = if moving { random.vector(0.01) } else { Vec3::zeros() };
+            let angular_velocity = if moving { random.vector(0.01) } else { Vec3::zeros() };
             let centre = random.vector(6.0);
-            Solid { velocity, spin, centre, ..Solid::fixed_cells(fractions) }
+            Solid { velocity, angular_velocity, centre, ..Solid::fixed_cells(fractions) }
         })
         .collect()
 }
@@ -232,7 +232,7 @@ impl Both {
 fn weight_error(setup: &Setup) -> f64 {
     let still = Vec3::zeros();
     let Some(phase) = &setup.solid_phase else { return 0.0 };
-    if phase.solids.iter().all(|solid| solid.velocity == still && solid.spin == still) {
+    if phase.solids.iter().all(|solid| solid.velocity == still && solid.angular_velocity == still) {
         return 0.0;
     }
     let radius = |solid: &Solid| match solid.shape {
@@ -272,8 +272,8 @@ pub fn waves(random: &mut Random, domain: &Domain) -> Vec<Populations> {
         .collect()
 }
 
-pub fn sphere(centre: [f64; 3], radius: f64, velocity: Vec3, spin: Vec3) -> Solid {
-    Solid { velocity, spin, ..Solid::fixed_sphere(Vec3::from(centre), radius) }
+pub fn sphere(centre: [f64; 3], radius: f64, velocity: Vec3, angular_velocity: Vec3) -> Solid {
+    Solid { velocity, angular_velocity, ..Solid::fixed_sphere(Vec3::from(centre), radius) }
 }
 
 /// Scenes that between them hold every model and face.

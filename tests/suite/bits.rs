@@ -75,7 +75,7 @@ fn sum<'a>(values: impl IntoIterator<Item = &'a f64>) -> u64 {
 
 fn sum_of_solids(solids: &[Solid]) -> u64 {
     sum(solids.iter().flat_map(|solid| {
-        solid.centre.iter().chain(solid.velocity.iter()).chain(solid.spin.iter())
+        solid.centre.iter().chain(solid.velocity.iter()).chain(solid.angular_velocity.iter())
     }))
 }
 

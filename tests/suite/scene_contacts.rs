@@ -182,7 +182,7 @@ fn a_bed_at_rest_overlaps_by_less_than_one_percent_of_a_diameter_at_any_tau() {
             for (load, grain) in loads.iter_mut().zip(system.grains()) {
                 let weight = (grain.mass - sphere_volume(grain.radius)) * g;
                 load.force = -calm * grain.mass * grain.velocity - weight * Vec3::z();
-                load.torque = -calm * grain.inertia * grain.spin;
+                load.torque = -calm * grain.inertia * grain.angular_velocity;
             }
             system.substep(substep, &loads).unwrap();
             time += substep;

@@ -156,7 +156,7 @@ fn a_mirror_plane_acts_on_a_grain_as_its_mirror_image_does() {
     let image = Grain {
         position: Vec3::new(8.0, -2.51, 8.0),
         velocity: Vec3::new(0.01, 0.03, 0.005),
-        spin: Vec3::new(-0.002, 0.0, 0.003),
+        angular_velocity: Vec3::new(-0.002, 0.0, 0.003),
         ..grain
     };
     let system = |grains, planes| GrainSystem::new(part.setup, grains, planes).unwrap();
@@ -171,10 +171,13 @@ fn a_mirror_plane_acts_on_a_grain_as_its_mirror_image_does() {
         // The pair is symmetric, so that both do the same operations up to factors of 2.
         assert!((one.position - two.position).norm() < 1e-12);
         assert!((one.velocity - two.velocity).norm() < 1e-12);
-        assert!((one.spin - two.spin).norm() < 1e-12);
+        assert!((one.angular_velocity - two.angular_velocity).norm() < 1e-12);
     }
     assert!(touched && mirrored.grains()[0].velocity.y > 0.0, "it must have bounced");
-    assert!(mirrored.grains()[0].spin.x.abs() < 0.002, "rolling resistance must have acted");
+    assert!(
+        mirrored.grains()[0].angular_velocity.x.abs() < 0.002,
+        "rolling resistance must have acted"
+    );
 }
 
 #[test]
@@ -267,8 +270,12 @@ fn means_over_the_free_grains_are_those_of_the_grains() {
     assert_close(row[6], grain.velocity.norm() * units.si_velocity());
     // m v²/2 + I ω²/2 with m = ρ V and I = 2/5 m a², SI.
     let (mass, a) = (2500.0 * PI / 6.0 * 2e-4_f64.powi(3), 1e-4);
-    let (v, spin) = (row[6], grain.spin.norm() * units.si_spin());
-    assert_close(row[7], 0.5 * mass * v * v + 0.2 * mass * a * a * spin * spin);
+    let (v, angular_velocity) =
+        (row[6], grain.angular_velocity.norm() * units.si_angular_velocity());
+    assert_close(
+        row[7],
+        0.5 * mass * v * v + 0.2 * mass * a * a * angular_velocity * angular_velocity,
+    );
     // It lies on the fixed grain: one contact, whose overlap follows from the two places.
     let apart = (grain.position - system.grains()[1].position).norm() * units.si_dx;
     assert_eq!(row[8], 1.0);

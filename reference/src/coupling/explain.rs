@@ -32,7 +32,7 @@ impl FreeGrains {
         let fluid_density = self.settings().fluid_density;
         let ratio = |grain: &Grain| grain.mass / (fluid_density * sphere_volume(grain.radius));
         let is_slow = |grain: &Grain| {
-            grain.velocity.norm() <= SLOW && grain.radius * grain.spin.norm() <= SLOW
+            grain.velocity.norm() <= SLOW && grain.radius * grain.angular_velocity.norm() <= SLOW
         };
         let grains = self.system().grains().iter().enumerate();
         let fast = grains.filter(|(_, grain)| !grain.held && !is_slow(grain));

@@ -92,7 +92,7 @@ pub struct LastStep {
     /// Velocity before the last step.
     pub velocity: Vec3,
     /// Spin before the last step.
-    pub spin: Vec3,
+    pub angular_velocity: Vec3,
     /// Load of the fluid during the last step.
     pub load: Load,
 }
@@ -139,7 +139,11 @@ impl FreeGrains {
     pub fn step(&mut self, loads: &[Load]) -> Result<u32, GrainError> {
         let outside = self.outside_loads(loads);
         for ((last, grain), load) in self.last.iter_mut().zip(self.grains.grains()).zip(loads) {
-            *last = LastStep { velocity: grain.velocity, spin: grain.spin, load: *load };
+            *last = LastStep {
+                velocity: grain.velocity,
+                angular_velocity: grain.angular_velocity,
+                load: *load,
+            };
         }
         let substeps = self.grains.step(1.0, &outside)?;
         if let Some(sunk) = hold::deepest(&self.grains) {
@@ -236,8 +240,11 @@ impl FreeGrains {
         if self.settings.internal_fluid == InternalFluid::Lagged {
             // + m_f (v_n - v_(n-1)),  + I_f (ω_n - ω_(n-1)),  I_f = 2/5 m_f a²
             total.force += fluid_mass * (grain.velocity - last.velocity);
-            total.torque +=
-                0.4 * fluid_mass * grain.radius * grain.radius * (grain.spin - last.spin);
+            total.torque += 0.4
+                * fluid_mass
+                * grain.radius
+                * grain.radius
+                * (grain.angular_velocity - last.angular_velocity);
         }
         match self.settings.gravity {
             // + (m_s - m_f) g
@@ -278,7 +285,11 @@ pub(super) fn mirrors_through(domain: &Domain, grain: &Grain, axis: usize) -> bo
 impl LastStep {
     /// Before the first step: as if the grain had always moved as it does, with no load.
     fn at_rest(grain: &Grain) -> Self {
-        LastStep { velocity: grain.velocity, spin: grain.spin, load: Load::default() }
+        LastStep {
+            velocity: grain.velocity,
+            angular_velocity: grain.angular_velocity,
+            load: Load::default(),
+        }
     }
 }
 
@@ -288,6 +299,6 @@ fn as_solid(grain: &Grain) -> Solid {
         shape: Shape::Sphere { radius: grain.radius },
         centre: grain.position,
         velocity: grain.velocity,
-        spin: grain.spin,
+        angular_velocity: grain.angular_velocity,
     }
 }

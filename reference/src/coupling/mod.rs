@@ -121,7 +121,7 @@ impl CoupledSolver {
         self.fluid.place_solids(|number, solid| {
             solid.centre = solids[number].centre;
             solid.velocity = solids[number].velocity;
-            solid.spin = solids[number].spin;
+            solid.angular_velocity = solids[number].angular_velocity;
         });
         Ok(())
     }

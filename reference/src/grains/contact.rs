@@ -73,7 +73,7 @@ pub struct Motion {
     /// Velocity of its centre.
     pub velocity: Vec3,
     /// Angular velocity.
-    pub spin: Vec3,
+    pub angular_velocity: Vec3,
 }
 
 /// How two bodies move against each other where they touch.
@@ -82,7 +82,7 @@ pub struct Relative {
     /// Velocity `u` of the first relative to the second at the point of contact, length/time.
     pub velocity: Vec3,
     /// Angular velocity of the first relative to the second, 1/time.
-    pub spin: Vec3,
+    pub angular_velocity: Vec3,
     /// Angular velocity about the normal, mean of the two bodies, 1/time.
     pub twist: f64,
 }
@@ -92,11 +92,12 @@ impl Relative {
     pub fn new(geometry: &Geometry, [first, second]: [&Motion; 2]) -> Self {
         // u = v₁ - v₂ + (a₁ ω₁ + a₂ ω₂) × n
         let n = &geometry.normal;
-        let turning = geometry.arms[0] * first.spin + geometry.arms[1] * second.spin;
+        let turning =
+            geometry.arms[0] * first.angular_velocity + geometry.arms[1] * second.angular_velocity;
         Relative {
             velocity: first.velocity - second.velocity + turning.cross(n),
-            spin: first.spin - second.spin,
-            twist: 0.5 * (first.spin + second.spin).dot(n),
+            angular_velocity: first.angular_velocity - second.angular_velocity,
+            twist: 0.5 * (first.angular_velocity + second.angular_velocity).dot(n),
         }
     }
 }
@@ -149,9 +150,9 @@ pub fn contact_force(
     let mut torques = [arms[0] * turning, arms[1] * turning];
     if let Some(Rolling { coefficient, stiffness, damping }) = law.rolling {
         // dθ/dt = ω_t,  M = -R_r² (k_r θ + γ_r ω_t),  |M| <= μ_r R_r F_n
-        springs.rolling += in_plane(&middle.spin, &n) * elapsed;
+        springs.rolling += in_plane(&middle.angular_velocity, &n) * elapsed;
         let square = rolling_radius * rolling_radius;
-        let dashpot_couple = damping * square * dashpot * in_plane(&end.spin, &n);
+        let dashpot_couple = damping * square * dashpot * in_plane(&end.angular_velocity, &n);
         let limit = coefficient * rolling_radius * normal_force;
         let couple = limited(&mut springs.rolling, stiffness * square, &dashpot_couple, limit);
         torques[0] -= couple;

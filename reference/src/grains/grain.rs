@@ -13,7 +13,7 @@ pub struct Grain {
     /// Velocity of the centre, length/time.
     pub velocity: Vec3,
     /// Angular velocity, 1/time.
-    pub spin: Vec3,
+    pub angular_velocity: Vec3,
     /// How the grain has turned since the start; for output only, no force depends on it.
     pub orientation: UnitQuaternion<f64>,
     /// Radius, length.
@@ -22,7 +22,7 @@ pub struct Grain {
     pub mass: f64,
     /// Moment of inertia about any axis through the centre, mass · length².
     pub inertia: f64,
-    /// Keeps its velocity and spin whatever acts on it.
+    /// Keeps its velocity and angular velocity whatever acts on it.
     pub held: bool,
 }
 
@@ -34,7 +34,7 @@ impl Grain {
         Grain {
             position,
             velocity: Vec3::zeros(),
-            spin: Vec3::zeros(),
+            angular_velocity: Vec3::zeros(),
             orientation: UnitQuaternion::identity(),
             radius,
             mass,
@@ -51,14 +51,15 @@ impl Grain {
 
     /// The same with an angular velocity, 1/time.
     #[must_use]
-    pub fn spinning(self, spin: Vec3) -> Self {
-        Grain { spin, ..self }
+    pub fn spinning(self, angular_velocity: Vec3) -> Self {
+        Grain { angular_velocity, ..self }
     }
 
     /// Kinetic energy of translation and rotation, mass · length²/time².
     pub fn kinetic_energy(&self) -> f64 {
         // (m v² + I ω²)/2
-        0.5 * (self.mass * self.velocity.norm_squared() + self.inertia * self.spin.norm_squared())
+        0.5 * (self.mass * self.velocity.norm_squared()
+            + self.inertia * self.angular_velocity.norm_squared())
     }
 }
 

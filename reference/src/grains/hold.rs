@@ -3,7 +3,7 @@
 //! A linear spring lets everything pass that is heavy or fast enough, and beyond the middle of a grain it
 //! pushes to the other side. So a set of grains is looked at after each step of the fluid: a free grain that
 //! lies deeper in another grain or behind a plane than [`DEEPEST`] has not been held. What is said here is
-//! the symptom; causes and remedies are for whoever knows the scales.
+//! the failure; causes and remedies are for whoever knows the scales.
 
 use crate::grains::grain::Grain;
 use crate::grains::system::GrainSystem;

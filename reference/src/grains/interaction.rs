@@ -48,7 +48,7 @@ pub fn with_plane(
         return None;
     }
     let geometry = Geometry::on_plane(height, &plane.normal, grain.radius);
-    let motion = Motion { velocity: plane.velocity, spin: Vec3::zeros() };
+    let motion = Motion { velocity: plane.velocity, angular_velocity: Vec3::zeros() };
     let middle = Relative::new(&geometry, [&course.middle, &motion]);
     let end = Relative::new(&geometry, [&course.end, &motion]);
     let law: &ContactLaw = &plane.law;

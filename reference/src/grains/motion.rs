@@ -111,7 +111,7 @@ pub struct Course {
 impl Course {
     /// The motion of a grain now, as a sub-step of no length.
     pub fn now(grain: &Grain) -> Self {
-        let motion = Motion { velocity: grain.velocity, spin: grain.spin };
+        let motion = Motion { velocity: grain.velocity, angular_velocity: grain.angular_velocity };
         Course { middle: motion, end: motion }
     }
 
@@ -121,7 +121,7 @@ impl Course {
         let a = acceleration(grain, load, gravity);
         let after = |time: f64| Motion {
             velocity: grain.velocity + a.velocity * time,
-            spin: grain.spin + a.spin * time,
+            angular_velocity: grain.angular_velocity + a.angular_velocity * time,
         };
         Course { middle: after(0.5 * dt), end: after(dt) }
     }
@@ -131,7 +131,8 @@ impl Course {
 pub fn drift(grain: &mut Grain, course: &Course, dt: f64) {
     // x += v' dt
     grain.position += course.middle.velocity * dt;
-    grain.orientation = UnitQuaternion::new(course.middle.spin * dt) * grain.orientation;
+    grain.orientation =
+        UnitQuaternion::new(course.middle.angular_velocity * dt) * grain.orientation;
     grain.orientation.renormalize_fast();
 }
 
@@ -140,15 +141,18 @@ pub fn kick(grain: &mut Grain, course: &Course, load: &Load, gravity: &Vec3, dt:
     // v = v' + a dt/2
     let a = acceleration(grain, load, gravity);
     grain.velocity = course.middle.velocity + a.velocity * (0.5 * dt);
-    grain.spin = course.middle.spin + a.spin * (0.5 * dt);
+    grain.angular_velocity = course.middle.angular_velocity + a.angular_velocity * (0.5 * dt);
 }
 
 /// Acceleration (length/time²) and angular acceleration (1/time²) of a grain under `load`; zero if
 /// it is held.
 fn acceleration(grain: &Grain, load: &Load, gravity: &Vec3) -> Motion {
     if grain.held {
-        return Motion { velocity: Vec3::zeros(), spin: Vec3::zeros() };
+        return Motion { velocity: Vec3::zeros(), angular_velocity: Vec3::zeros() };
     }
     // a = F/m + g,  dω/dt = T/I (a sphere: no gyroscopic term)
-    Motion { velocity: load.force / grain.mass + gravity, spin: load.torque / grain.inertia }
+    Motion {
+        velocity: load.force / grain.mass + gravity,
+        angular_velocity: load.torque / grain.inertia,
+    }
 }

@@ -222,8 +222,11 @@ impl GrainSetup {
 /// Errors unless the values of grain number `grain` can be used.
 fn check_grain(grain: usize, values: &Grain) -> Result<(), GrainError> {
     let bad = |key, value, allowed| Err(GrainError::BadGrain { grain, key, value, allowed });
-    let vectors =
-        [("position", values.position), ("velocity", values.velocity), ("spin", values.spin)];
+    let vectors = [
+        ("position", values.position),
+        ("velocity", values.velocity),
+        ("spin", values.angular_velocity),
+    ];
     for (key, vector) in vectors {
         if let Some(&value) = vector.iter().find(|component| !component.is_finite()) {
             return bad(key, value, "it must be finite");

@@ -6,7 +6,7 @@ mod stopped;
 use crate::lattice::{Populations, density, momentum};
 use crate::setup::Setup;
 
-pub use stopped::{Cause, Stopped, Symptom};
+pub use stopped::{Cause, Failure, Stopped};
 
 /// When the guard looks and what it takes for broken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub struct Sight {
     /// Largest speed `|j|/rho`.
     pub max_speed: f64,
     /// The first broken cell and what is wrong with it.
-    pub broken: Option<(usize, Symptom)>,
+    pub broken: Option<(usize, Failure)>,
 }
 
 /// What a guard has seen so far.
@@ -89,8 +89,8 @@ impl Guard {
         for (cell, f) in f.iter().enumerate() {
             mass += density(f);
             max_speed = max_speed.max(momentum(f).norm() / density(f));
-            if let Some(symptom) = self.symptom(f) {
-                broken = Some((cell, symptom));
+            if let Some(failure) = self.failure(f) {
+                broken = Some((cell, failure));
                 break;
             }
         }
@@ -98,24 +98,24 @@ impl Guard {
     }
 
     /// What is wrong with a cell, if anything is.
-    pub fn symptom(&self, f: &Populations) -> Option<Symptom> {
+    pub fn failure(&self, f: &Populations) -> Option<Failure> {
         let rho = density(f);
         let speed = momentum(f).norm() / rho;
         if !(rho.is_finite() && speed.is_finite()) {
-            Some(Symptom::NotFinite)
+            Some(Failure::NotFinite)
         } else if rho <= 0.0 {
-            Some(Symptom::NoDensity(rho))
+            Some(Failure::NoDensity(rho))
         } else {
-            (speed > self.settings.max_speed).then_some(Symptom::TooFast(speed))
+            (speed > self.settings.max_speed).then_some(Failure::TooFast(speed))
         }
     }
 
     /// Judges what a look at all cells before step `step` has seen, whoever has looked. Errors if a cell
     /// is broken or the mean density is.
     pub fn judge(&mut self, setup: &Setup, step: u64, sight: &Sight) -> Result<(), Stopped> {
-        if let Some((cell, symptom)) = sight.broken {
+        if let Some((cell, failure)) = sight.broken {
             let cause = stopped::probable_cause(self, setup, step);
-            return Err(Stopped { step, cell: setup.domain.coordinates(cell), symptom, cause });
+            return Err(Stopped { step, cell: setup.domain.coordinates(cell), failure, cause });
         }
         self.last_mean_density = sight.mean_density;
         self.first_mean_density.get_or_insert(self.last_mean_density);
@@ -124,9 +124,9 @@ impl Guard {
         if (1.0 / MAX_DENSITY_FACTOR..=MAX_DENSITY_FACTOR).contains(&ratio) {
             return Ok(());
         }
-        let (symptom, cause) =
-            (Symptom::MeanDensity(ratio), stopped::probable_cause(self, setup, step));
-        Err(Stopped { step, cell: [0, 0, 0], symptom, cause })
+        let (failure, cause) =
+            (Failure::MeanDensity(ratio), stopped::probable_cause(self, setup, step));
+        Err(Stopped { step, cell: [0, 0, 0], failure, cause })
     }
 
     /// The evidence so far, for a run that is to go on later.

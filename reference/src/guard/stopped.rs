@@ -10,7 +10,7 @@ use thiserror::Error;
 
 /// What is wrong with a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Symptom {
+pub enum Failure {
     /// A population is NaN or infinite.
     NotFinite,
     /// The density is zero or negative.
@@ -103,27 +103,27 @@ pub struct Stopped {
     /// The first broken cell, `[x, y, z]`; `[0, 0, 0]` where all are.
     pub cell: [usize; 3],
     /// What is wrong there.
-    pub symptom: Symptom,
+    pub failure: Failure,
     /// Why, probably.
     pub cause: Cause,
 }
 
 impl fmt::Display for Stopped {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Stopped { step, cell, symptom, cause } = self;
+        let Stopped { step, cell, failure, cause } = self;
         write!(out, "stopped before step {step} ")?;
-        match symptom {
-            Symptom::MeanDensity(_) => write!(out, "on the mean over all cells: ")?,
+        match failure {
+            Failure::MeanDensity(_) => write!(out, "on the mean over all cells: ")?,
             _ => write!(out, "at cell {cell:?}: ")?,
         }
-        match symptom {
-            Symptom::NotFinite => write!(out, "a population is not a finite number")?,
-            Symptom::NoDensity(rho) => write!(out, "density = {rho:.3e} must be positive")?,
-            Symptom::TooFast(speed) => write!(
+        match failure {
+            Failure::NotFinite => write!(out, "a population is not a finite number")?,
+            Failure::NoDensity(rho) => write!(out, "density = {rho:.3e} must be positive")?,
+            Failure::TooFast(speed) => write!(
                 out,
                 "speed = {speed:.3} lattice units exceeds the limit (the speed of sound is 0.577)"
             )?,
-            Symptom::MeanDensity(ratio) => write!(
+            Failure::MeanDensity(ratio) => write!(
                 out,
                 "the mean density is {ratio:.3} times its initial value and must stay within 0.5 to 2"
             )?,
@@ -280,7 +280,7 @@ fn strongest_inlet(setup: &Setup) -> Option<(&'static str, f64)> {
 fn fastest_solid(setup: &Setup) -> Option<(usize, f64)> {
     let solids = &setup.solid_phase.as_ref()?.solids;
     let speed = |solid: &Solid| match solid.shape {
-        Shape::Sphere { radius } => solid.velocity.norm() + radius * solid.spin.norm(),
+        Shape::Sphere { radius } => solid.velocity.norm() + radius * solid.angular_velocity.norm(),
         Shape::Cells { .. } => solid.velocity.norm(),
     };
     solids.iter().map(speed).enumerate().max_by(|a, b| a.1.total_cmp(&b.1))

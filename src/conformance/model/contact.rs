@@ -36,7 +36,7 @@ impl Model {
             (true, false) => [distance, Gauged::default()],
             (false, _) => [r1 - half, r2 - half],
         };
-        let spins = pair.motions.map(|motion| vector(&motion.spin));
+        let spins = pair.motions.map(|motion| vector(&motion.angular_velocity));
         let velocities = pair.motions.map(|motion| vector(&motion.velocity));
         let mut u: Gauged3 = std::array::from_fn(|i| velocities[0][i] - velocities[1][i]);
         if !self.has(Mistake::SlipWithoutSpin) {
@@ -61,9 +61,9 @@ impl Model {
         if let Some(rolling) = pair.law.rolling {
             let radius = if plane { r1 } else { r1 * r2 / (r1 + r2) };
             let square = radius * radius;
-            let spin = across(std::array::from_fn(|i| spins[0][i] - spins[1][i]), n);
+            let angular_velocity = across(std::array::from_fn(|i| spins[0][i] - spins[1][i]), n);
             let spring = times(vector(&pair.springs.rolling), square * rolling.stiffness);
-            let wanted = plus(spring, times(spin, square * rolling.damping));
+            let wanted = plus(spring, times(angular_velocity, square * rolling.damping));
             let couple = limited(wanted, radius * normal.at_least_zero() * rolling.coefficient);
             torques[0] = std::array::from_fn(|i| torques[0][i] - couple[i]);
             torques[1] = plus(torques[1], couple);

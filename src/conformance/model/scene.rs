@@ -123,11 +123,11 @@ impl Model {
 
     /// Velocity of a solid at `arm` from its centre.
     fn velocity_at(&self, solid: &Solid, arm: &Vec3) -> Gauged3 {
-        let (spin, arm) = (vector(&solid.spin), vector(arm));
+        let (angular_velocity, arm) = (vector(&solid.angular_velocity), vector(arm));
         let turning = match self.mistake {
             Some(Mistake::RotationMissing) => Gauged3::default(),
-            Some(Mistake::SpinReversed) => cross(arm, spin),
-            _ => cross(spin, arm),
+            Some(Mistake::SpinReversed) => cross(arm, angular_velocity),
+            _ => cross(angular_velocity, arm),
         };
         plus(vector(&solid.velocity), turning)
     }

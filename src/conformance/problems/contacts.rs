@@ -81,9 +81,10 @@ fn pairs(
         // Every second pair is near rest against its springs, so it sticks; the others slip.
         let speed = if number % 2 == 0 { 0.2 } else { 1.5 };
         let velocity = direction * parting + random.vector(speed);
-        let still = Motion { velocity: Vec3::zeros(), spin: Vec3::zeros() };
-        let first = Motion { velocity, spin: random.vector(speed) };
-        let second = Motion { velocity: random.vector(speed), spin: random.vector(speed) };
+        let still = Motion { velocity: Vec3::zeros(), angular_velocity: Vec3::zeros() };
+        let first = Motion { velocity, angular_velocity: random.vector(speed) };
+        let second =
+            Motion { velocity: random.vector(speed), angular_velocity: random.vector(speed) };
         let mut across = || {
             let vector = random.vector(0.02);
             vector - direction * vector.dot(&direction)

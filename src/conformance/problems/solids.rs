@@ -106,10 +106,15 @@ fn one_step(
 }
 
 /// A sphere that moves and spins.
-pub(super) fn sphere(centre: [f64; 3], radius: f64, velocity: [f64; 3], spin: [f64; 3]) -> Solid {
+pub(super) fn sphere(
+    centre: [f64; 3],
+    radius: f64,
+    velocity: [f64; 3],
+    angular_velocity: [f64; 3],
+) -> Solid {
     Solid {
         velocity: velocity.into(),
-        spin: spin.into(),
+        angular_velocity: angular_velocity.into(),
         ..Solid::fixed_sphere(centre.into(), radius)
     }
 }

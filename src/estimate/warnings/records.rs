@@ -2,7 +2,7 @@
 
 use super::warning;
 use crate::estimate::Warning;
-use crate::scene::{Rhythm, Scene};
+use crate::scene::{OutputInterval, Scene};
 
 /// Rows further apart or closer than asked for by this share cause a warning.
 const OFF: f64 = 0.01;
@@ -13,7 +13,8 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     }
     let mut warnings = Vec::new();
     for record in &scene.records {
-        let (Rhythm::Every(steps), Some(si_every)) = (record.rhythm, record.si_every) else {
+        let (OutputInterval::Every(steps), Some(si_every)) = (record.interval, record.si_every)
+        else {
             continue;
         };
         let si_dt = scene.units.si_dt;

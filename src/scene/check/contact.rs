@@ -159,7 +159,7 @@ fn with_friction(law: ContactLaw, section: &ContactSection) -> Result<ContactLaw
 }
 
 /// The law of a mirror plane: the contact of a grain with its own mirror image (exactly, but for a
-/// rolling spring's turn about the normal, which a plane, having no spin, takes to be half as fast).
+/// rolling spring's turn about the normal, which a plane, having no angular velocity, takes to be half as fast).
 pub(super) fn mirror(law: &ContactLaw) -> ContactLaw {
     // The overlap with the image is twice that with the plane, and so is the speed of approach; the
     // two surfaces never slip. A couple per radian k_r (R/2)² (2 θ) is (k_r/2) R² θ; its limit

@@ -203,7 +203,7 @@ impl Listed {
     fn to_grain(&self) -> Grain {
         let grain = Grain::sphere(self.centre, self.radius, self.density)
             .moving(self.velocity)
-            .spinning(self.spin);
+            .spinning(self.angular_velocity);
         Grain { held: self.motion != Motion::Free, ..grain }
     }
 }

@@ -72,7 +72,7 @@ pub(super) struct Listed {
     /// Over that of the fluid; 1 for grains that are not free, where it means nothing.
     pub density: f64,
     pub velocity: Vec3,
-    pub spin: Vec3,
+    pub angular_velocity: Vec3,
 }
 
 impl Listed {
@@ -109,7 +109,7 @@ impl GrainList {
         for (number, section) in sections.iter().enumerate() {
             let at = |key: &str| format!("grains[{number}].{key}");
             grain_kinds::foreign_keys(section, &at)?;
-            let (velocity, spin) = motion(section, &at, units)?;
+            let (velocity, angular_velocity) = motion(section, &at, units)?;
             let place = Place { at: &at, domain, units };
             let (balls, bytes) = grain_kinds::balls(section, folder, &place)?;
             let unused_densities =
@@ -127,7 +127,8 @@ impl GrainList {
                 let (key, motion) = (grain_kinds::place_key(section, &at), section.motion);
                 check_size(&grain_kinds::size_key(section, &at), radius, domain, units)
                     .map_err(on_line)?;
-                check_speed(&at("spin"), &velocity, &spin, radius, units).map_err(on_line)?;
+                check_speed(&at("spin"), &velocity, &angular_velocity, radius, units)
+                    .map_err(on_line)?;
                 neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
                 let line = ball.line;
                 list.grains.push(Listed {
@@ -138,7 +139,7 @@ impl GrainList {
                     radius,
                     density,
                     velocity,
-                    spin,
+                    angular_velocity,
                 });
             }
         }
@@ -154,14 +155,14 @@ impl GrainList {
     /// All as solids of the fluid.
     pub fn solids(&self) -> Vec<Solid> {
         let solid = |listed: &Listed| {
-            let Listed { centre, radius, velocity, spin, .. } = *listed;
-            Solid { shape: Shape::Sphere { radius }, centre, velocity, spin }
+            let Listed { centre, radius, velocity, angular_velocity, .. } = *listed;
+            Solid { shape: Shape::Sphere { radius }, centre, velocity, angular_velocity }
         };
         self.grains.iter().map(solid).collect()
     }
 }
 
-/// Velocity and spin in lattice units.
+/// Velocity and angular velocity in lattice units.
 fn motion(
     section: &GrainsSection,
     at: &impl Fn(&str) -> String,
@@ -183,9 +184,9 @@ fn motion(
         Some(si_velocity) => super::velocity(&at("velocity"), si_velocity, units)?,
         None => Vec3::zeros(),
     };
-    let spin = section.spin.unwrap_or([0.0; 3]);
-    finite(&at("spin"), &spin, "rad/s")?;
-    Ok((velocity, Units::to_lattice(spin, units.si_spin())))
+    let angular_velocity = section.spin.unwrap_or([0.0; 3]);
+    finite(&at("spin"), &angular_velocity, "rad/s")?;
+    Ok((velocity, Units::to_lattice(angular_velocity, units.si_angular_velocity())))
 }
 
 /// Density of a grain over that of the fluid, if it is free; else 1.
@@ -259,11 +260,11 @@ pub(super) fn check_size(
 fn check_speed(
     key: &str,
     velocity: &Vec3,
-    spin: &Vec3,
+    angular_velocity: &Vec3,
     radius: f64,
     units: &Units,
 ) -> Result<(), Trouble> {
-    let speed = velocity.norm() + spin.norm() * radius;
+    let speed = velocity.norm() + angular_velocity.norm() * radius;
     if speed <= MAX_SPEED {
         return Ok(());
     }

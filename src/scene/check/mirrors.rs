@@ -79,8 +79,8 @@ fn alone(
             let remedy = "put all centres on the plane or none";
             return Err(listed.trouble(problem, remedy));
         }
-        // The image has the opposite velocity along the normal, and the opposite spin across it.
-        let across = (0..3).any(|other| other != axis && listed.spin[other] != 0.0);
+        // The image has the opposite velocity along the normal, and the opposite angular velocity across it.
+        let across = (0..3).any(|other| other != axis && listed.angular_velocity[other] != 0.0);
         if listed.velocity[axis] != 0.0 || across {
             let problem = format!(
                 "its centre lies on a mirror plane across {name}: it can neither move along {name} \

@@ -20,7 +20,7 @@ pub struct Record {
     /// What it holds.
     pub what: What,
     /// How often it is taken.
-    pub rhythm: Rhythm,
+    pub interval: OutputInterval,
     /// The time between rows that the scene asks for, if it gives one, s.
     pub si_every: Option<f64>,
 }
@@ -63,25 +63,25 @@ pub enum What {
 
 /// How often a record is taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Rhythm {
+pub enum OutputInterval {
     /// At the start, and each time that this many steps have been made.
     Every(u64),
     /// Once, at the end.
     AtEnd,
 }
 
-impl Rhythm {
+impl OutputInterval {
     /// Whether a record is due after `step` steps, leaving the end aside.
     pub fn is_due(self, step: u64) -> bool {
-        matches!(self, Rhythm::Every(interval) if step.is_multiple_of(interval))
+        matches!(self, OutputInterval::Every(interval) if step.is_multiple_of(interval))
     }
 }
 
-impl fmt::Display for Rhythm {
+impl fmt::Display for OutputInterval {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Rhythm::Every(interval) => write!(out, "every {interval} steps"),
-            Rhythm::AtEnd => out.write_str("at the end"),
+            OutputInterval::Every(interval) => write!(out, "every {interval} steps"),
+            OutputInterval::AtEnd => out.write_str("at the end"),
         }
     }
 }
@@ -112,17 +112,24 @@ pub(super) fn records(
             );
             return Err(Trouble::new(at("name"), problem, "give it another name"));
         }
-        let rhythm = match (section.every, section.every_steps) {
-            (None, None) => Rhythm::AtEnd,
-            (Some(si_time), None) => Rhythm::Every(steps(&at("every"), si_time, units.si_dt)?),
-            (None, Some(every)) => Rhythm::Every(count(&at("every_steps"), every)?),
+        let interval = match (section.every, section.every_steps) {
+            (None, None) => OutputInterval::AtEnd,
+            (Some(si_time), None) => {
+                OutputInterval::Every(steps(&at("every"), si_time, units.si_dt)?)
+            }
+            (None, Some(every)) => OutputInterval::Every(count(&at("every_steps"), every)?),
             (Some(_), Some(_)) => {
                 let problem = "the record has both `every` (s) and `every_steps`";
                 return Err(Trouble::new(at("every_steps"), problem, "give one of them"));
             }
         };
         let what = what(section, &at, setup, free, units)?;
-        records.push(Record { name: section.name.clone(), what, rhythm, si_every: section.every });
+        records.push(Record {
+            name: section.name.clone(),
+            what,
+            interval,
+            si_every: section.every,
+        });
     }
     Ok(records)
 }

@@ -2,7 +2,7 @@
 
 use super::Trouble;
 use super::numbers::{count, steps};
-use super::records::{Record, Rhythm, What};
+use super::records::{OutputInterval, Record, What};
 use crate::output::csv::Column;
 use crate::output::grain_means;
 use crate::output::records::{BOX_COLUMNS, FORCE_COLUMNS};
@@ -77,7 +77,7 @@ fn steady(section: &SteadySection, records: &[Record]) -> Result<Steady, Trouble
 }
 
 fn can_be_steady(record: &Record) -> bool {
-    columns(record).is_some() && matches!(record.rhythm, Rhythm::Every(_))
+    columns(record).is_some() && matches!(record.interval, OutputInterval::Every(_))
 }
 
 /// Why the record that is named cannot become steady, and what to do.

@@ -69,7 +69,7 @@ impl SettledBed {
             for (load, grain) in loads.iter_mut().zip(system.grains()) {
                 // Spin too: nothing else stops a grain that turns about the normal of its contact.
                 load.force = -grain.mass / (CALM * unit_time) * grain.velocity;
-                load.torque = -grain.inertia / (CALM * unit_time) * grain.spin;
+                load.torque = -grain.inertia / (CALM * unit_time) * grain.angular_velocity;
             }
             system.substep(substep, &loads)?;
             (time, substeps) = (time + substep, substeps + 1);

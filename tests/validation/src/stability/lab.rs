@@ -5,7 +5,7 @@ use std::sync::Arc;
 use psmrt_reference::coupling::CoupledStop;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::grains::setup::GrainError;
-use psmrt_reference::guard::{GuardSettings, Symptom};
+use psmrt_reference::guard::{Failure, GuardSettings};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
@@ -78,11 +78,11 @@ pub(super) fn go_on(engine: &mut Coupled, end: u64) -> Result<(), LabError> {
     match engine.step(left).and_then(|()| engine.look()) {
         Ok(()) => Ok(()),
         Err(EngineStop::Broken(CoupledStop::Fluid(stop))) => {
-            let how = match stop.symptom {
-                Symptom::NotFinite => "not_finite",
-                Symptom::NoDensity(_) => "no_density",
-                Symptom::TooFast(_) => "too_fast",
-                Symptom::MeanDensity(_) => "mean_density",
+            let how = match stop.failure {
+                Failure::NotFinite => "not_finite",
+                Failure::NoDensity(_) => "no_density",
+                Failure::TooFast(_) => "too_fast",
+                Failure::MeanDensity(_) => "mean_density",
             };
             Err(LabError::Stopped { steps: stop.step, how })
         }

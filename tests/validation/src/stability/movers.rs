@@ -128,7 +128,7 @@ fn velocity_of(engine: &Coupled) -> Vec3 {
 pub(super) fn with_grains(setup: Setup, line: &Line, grains: &[Grain]) -> Setup {
     let solid = |grain: &Grain| Solid {
         velocity: grain.velocity,
-        spin: grain.spin,
+        angular_velocity: grain.angular_velocity,
         ..Solid::fixed_sphere(grain.position, grain.radius)
     };
     setup.with_solids(SolidPhase {
