@@ -5,6 +5,7 @@ use psmrt_reference::grains::contact::{Geometry, Motion, Relative, contact_force
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::law::{ContactLaw, damping_ratio};
 use psmrt_reference::grains::lubrication::Lubrication;
+use psmrt_reference::grains::plane::Plane;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
@@ -123,4 +124,15 @@ fn lubrication_between_unequal_spheres_is_jeffrey_s_whichever_is_first() {
     let expected = 6.0 * PI * 0.7 * (squeezed + logarithmic);
     assert_same("radii 1.5 and 4", law.between_spheres(h, [a1, a2]), expected);
     assert_same("radii 4 and 1.5", law.between_spheres(h, [a2, a1]), expected);
+}
+
+#[test]
+fn walls_of_a_domain_face_inwards_two_for_each_axis_asked_for() {
+    let law = ContactLaw::new(1.0, 0.0).unwrap();
+    let (low, high) = (Vec3::new(1.0, 2.0, 3.0), Vec3::new(5.0, 7.0, 9.0));
+    let walls = Plane::box_walls(low, high, &[0, 2], law);
+    let inside = Vec3::new(1.5, 4.0, 5.0);
+    // Distances of a point inside: 1.5 - 1, 5 - 1.5, 5 - 3, 9 - 5.
+    let heights: Vec<f64> = walls.iter().map(|wall| wall.height(&inside)).collect();
+    assert_eq!(heights, [0.5, 3.5, 2.0, 4.0], "distances from the walls across x and z");
 }
