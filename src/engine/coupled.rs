@@ -74,7 +74,7 @@ impl Coupled {
         self.fluid.name()
     }
 
-    /// What it computes on besides the processor, if it does.
+    /// The device that it computes on, if it is not the processor.
     pub fn adapter(&self) -> Option<String> {
         self.fluid.adapter()
     }

@@ -41,7 +41,7 @@ pub trait FluidEngine: fmt::Debug + Send {
     /// Its name, as `--engine` spells it.
     fn name(&self) -> &'static str;
 
-    /// What it computes on besides the processor, if it does.
+    /// The device that it computes on, if it is not the processor.
     fn adapter(&self) -> Option<String> {
         None
     }

@@ -41,7 +41,7 @@ pub struct Kernel {
     pub(super) face_cells: Vec<u32>,
     /// Velocities at faces that let sound out, if there are such faces.
     pub(super) outgoing: Option<Outgoing>,
-    /// The cells that the step of all cells does not do right.
+    /// The cells for which the step of all cells is not valid: they are computed again.
     pub(super) list: Growing,
     pub(super) list_count: u32,
     pub(super) tasks: Tasks,
@@ -259,7 +259,7 @@ impl Kernel {
         Ok(())
     }
 
-    /// Lists the cells that the step of all cells does not do right.
+    /// Lists the cells for which the step of all cells is not valid.
     pub(super) fn list_cells(&mut self) -> Result<(), KernelError> {
         let listed = self.solids.as_ref().map_or(&[][..], |solids| &solids.listed);
         let mut cells = listed.to_vec();
