@@ -1,15 +1,27 @@
-//! Candidates in other languages: running them, and what the judge says of them.
+//! The conformance kit, and candidates in other languages: running them, and what the judge says of them.
 
 #![allow(dead_code, reason = "the tests and the example use different parts of this")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 
-use psmrt::conformance::Verdict;
-use psmrt::conformance::judge::judge_submission;
+use psmrt::conformance::judge::{Submission, judge_submission};
 use psmrt::conformance::kit::Kit;
 use psmrt::conformance::mistakes::CATALOGUE;
+use psmrt::conformance::{Candidate, Verdict};
+
+/// The kit, which takes a second to make, once in a process.
+pub fn kit() -> &'static Kit {
+    static KIT: OnceLock<Kit> = OnceLock::new();
+    KIT.get_or_init(|| Kit::make().expect("the kit can be made"))
+}
+
+/// The verdict on what a candidate in Rust answers.
+pub fn judged(candidate: &mut dyn Candidate) -> Verdict {
+    judge_submission(kit(), &Submission::of(kit(), candidate))
+}
 
 /// The folder of the candidates.
 pub fn sources() -> PathBuf {
@@ -57,16 +69,15 @@ pub fn numpy_candidate(kit: &Path, out: &Path, options: &[&str]) -> Command {
 }
 
 /// The verdict on the answers in a folder.
-pub fn verdict(kit: &Kit, folder: &Path) -> Verdict {
+pub fn verdict(folder: &Path) -> Verdict {
     let submission =
-        psmrt::conformance::folder::read(kit, folder).expect("the answers can be read");
-    judge_submission(kit, &submission)
+        psmrt::conformance::folder::read(kit(), folder).expect("the answers can be read");
+    judge_submission(kit(), &submission)
 }
 
 /// The confusion table: what the judge says of the NumPy candidate, in the given precision, with each
 /// mistake planted.
 pub fn confusion(folder: &Path, precision: &str) -> String {
-    let kit = Kit::make().expect("the kit can be made");
     let names: Vec<&str> = CATALOGUE.iter().map(|entry| entry.name).collect();
     // Two processes, for two cores.
     let halves = names.chunks(names.len().div_ceil(2)).enumerate().map(|(half, names)| {
@@ -84,7 +95,7 @@ pub fn confusion(folder: &Path, precision: &str) -> String {
     for (names, out, running) in halves {
         running.join().expect("the candidate runs");
         for name in names {
-            let verdict = verdict(&kit, &out.join(name));
+            let verdict = verdict(&out.join(name));
             let wrong: Vec<_> = verdict.judged.iter().filter(|judged| judged.failed()).collect();
             let fits = verdict.diagnosis.as_ref().map_or(&[][..], |diagnosis| &diagnosis.single);
             let named = fits.first().map_or("", |fit| fit.mistake.entry().name);

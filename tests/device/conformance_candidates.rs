@@ -8,7 +8,6 @@ use std::process::Command;
 
 use crate::conformance::{self, numpy_candidate, run, sources, verdict, with_kit};
 use libtest_mimic::{Failed, Trial};
-use psmrt::conformance::kit::Kit;
 
 /// The trials of the candidates.
 pub fn trials() -> Vec<Trial> {
@@ -46,11 +45,18 @@ fn folder(name: &str) -> PathBuf {
 
 fn precisions() {
     let folder = folder("numpy_precisions");
-    let kit = Kit::make().unwrap();
-    for precision in ["f64", "f32", "f16-storage"] {
-        let out = folder.join(precision);
-        run(&mut numpy_candidate(&folder.join("kit"), &out, &["--precision", precision]));
-        let verdict = verdict(&kit, &out);
+    let precisions = ["f64", "f32", "f16-storage"];
+    // A process each, side by side.
+    std::thread::scope(|threads| {
+        for precision in precisions {
+            let (kit, out) = (folder.join("kit"), folder.join(precision));
+            threads.spawn(move || {
+                run(&mut numpy_candidate(&kit, &out, &["--precision", precision]));
+            });
+        }
+    });
+    for precision in precisions {
+        let verdict = verdict(&folder.join(precision));
         assert!(verdict.passed() && verdict.unasked.is_empty(), "{verdict}");
         assert_eq!(verdict.attempted(), verdict.judged.len());
         // It passes with room to spare: 1.3 was measured, in single precision.
@@ -82,18 +88,17 @@ fn mistakes() {
 /// The program in the kit's README is run as it is printed there, and once with its mistake.
 fn first_answers() {
     let folder = folder("readme");
-    let kit = Kit::make().unwrap();
     let readme = fs::read_to_string(folder.join("kit/README.md")).unwrap();
     let (_, rest) = readme.split_once("```python\n").unwrap();
     let (program, _) = rest.split_once("```").unwrap();
     run(Command::new("python3").args(["-c", program]).current_dir(&folder));
-    let right = verdict(&kit, &folder.join("candidate"));
+    let right = verdict(&folder.join("candidate"));
     assert!(right.passed() && right.attempted() == 3, "{right}");
     fs::remove_dir_all(folder.join("candidate")).unwrap();
     let without_tau = program.replace(" / tau[:, None]", "");
     assert_ne!(program, without_tau);
     run(Command::new("python3").args(["-c", &without_tau]).current_dir(&folder));
-    let wrong = verdict(&kit, &folder.join("candidate"));
+    let wrong = verdict(&folder.join("candidate"));
     let named = wrong.diagnosis.as_ref().and_then(|diagnosis| diagnosis.named());
     assert_eq!(named.map(|mistake| mistake.entry().name), Some("eq2_without_tau"), "{wrong}");
     fs::remove_dir_all(folder).unwrap();
@@ -101,13 +106,12 @@ fn first_answers() {
 
 fn c_candidate() {
     let folder = folder("c_candidate");
-    let kit = Kit::make().unwrap();
     let program = folder.join("c_candidate");
     let source = sources().join("c_candidate.c");
     let flags = ["-std=c99", "-O2", "-Wall", "-Wextra", "-Werror", "-o"];
     run(Command::new("cc").args(flags).arg(&program).arg(&source).arg("-lm"));
     run(Command::new(&program).arg(folder.join("kit")).arg(folder.join("candidate")));
-    let verdict = verdict(&kit, &folder.join("candidate"));
+    let verdict = verdict(&folder.join("candidate"));
     assert!(verdict.passed() && verdict.unasked.is_empty(), "{verdict}");
     assert_eq!(verdict.attempted(), 6 + 5 + 16);
     fs::remove_dir_all(folder).unwrap();

@@ -140,7 +140,7 @@ fn assert_second_order(
 
 #[test]
 fn square_duct_converges_to_the_series_with_second_order() {
-    let mut budget = Budget::oracle(10_500_000);
+    let mut budget = Budget::oracle(10_000_000);
     for collision in [srt(0.8), dhumieres(0.8), magic(1.4, 3.0 / 16.0)] {
         assert_second_order(&mut budget, collision, 1, [3, 6, 12, 20]);
     }

@@ -109,7 +109,7 @@ fn error_of_bounce_back_walls_is_second_order_for_srt_and_mrt() {
 
 #[test]
 fn magic_rates_put_the_wall_exactly_half_way_at_every_tau_along_every_axis() {
-    let mut budget = Budget::oracle(2_300_000);
+    let mut budget = Budget::oracle(2_100_000);
     for tau in [0.505, 0.55, 0.8, 1.5, 3.0] {
         for (across, along) in [(0, 1), (1, 2), (2, 0)] {
             let channel = Channel { across, along, ..Channel::new(7, 0.1, magic(tau, 3.0 / 16.0)) };
@@ -165,7 +165,7 @@ fn wall_parameter(collision: &Collision) -> f64 {
 
 #[test]
 fn wall_slip_follows_the_closed_form_for_every_collision_and_tau() {
-    let mut budget = Budget::oracle(8_500_000);
+    let mut budget = Budget::oracle(8_000_000);
     let rows = golden_rows("poiseuille/bounceback_wall.csv");
     let mut compared = 0;
     for row in rows.iter().skip(1) {

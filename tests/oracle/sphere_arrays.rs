@@ -22,8 +22,11 @@ use common::{Budget, golden_rows, observed_order};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 
-/// Steady enough: the flux is within 1e-5 of its end, and errors are claimed to 1e-3 at most.
-const STEADY: f64 = 2e-5;
+/// Steady enough: the flux is within 5e-5 of its end, and errors are claimed to 1e-3 at most.
+const STEADY: f64 = 1e-4;
+
+/// For what is claimed to 1e-4: within 1e-5.
+const STEADIER: f64 = 2e-5;
 
 /// An array of the table, by its solid fraction as spelled there.
 #[derive(Clone, Copy)]
@@ -63,17 +66,17 @@ impl Case {
         }
     }
 
-    fn flow(self, array: &Array, budget: &mut Budget) -> Flow {
+    fn flow(self, array: &Array, tolerance: f64, budget: &mut Budget) -> Flow {
         let steps = |solver: &mut _, count| {
             budget.run(solver, count);
             Ok(())
         };
-        array.flow(self.exact(), STEADY, steps).unwrap()
+        array.flow(self.exact(), tolerance, steps).unwrap()
     }
 
     /// Relative error of `K`.
     fn error(self, array: &Array, budget: &mut Budget) -> f64 {
-        self.flow(array, budget).k / self.exact() - 1.0
+        self.flow(array, STEADY, budget).k / self.exact() - 1.0
     }
 
     /// What the leak takes off `K`, relative.
@@ -86,7 +89,7 @@ impl Case {
 
 #[test]
 fn drag_of_all_three_lattices_converges_to_the_tables_with_second_order() {
-    let mut budget = Budget::oracle(39_000_000);
+    let mut budget = Budget::oracle(32_000_000);
     for (case, sides) in [(SC, [12, 16, 24]), (BCC, [12, 16, 24]), (FCC, [12, 16, 24])] {
         let errors = sides.map(|side| {
             let array = case.array(side, dhumieres(0.8));
@@ -122,7 +125,8 @@ fn whole_cell_and_its_quarter_between_mirror_planes_give_the_same_drag_for_all_t
     for (case, side) in [(SC, 8), (BCC, 12), (FCC, 12)] {
         let quarter = case.array(side, dhumieres(1.0));
         let whole = Array { part: Part::Whole { shift: [0.0; 3] }, ..quarter };
-        let (quarter, whole) = (case.flow(&quarter, &mut budget), case.flow(&whole, &mut budget));
+        let [quarter, whole] =
+            [quarter, whole].map(|array| case.flow(&array, STEADIER, &mut budget));
         assert_eq!(quarter.steps, whole.steps);
         // The same sums in another order: U = 1e-4 of populations of 0.3, kept for 1000 steps.
         assert!(
@@ -142,7 +146,7 @@ fn whole_cell_and_its_quarter_between_mirror_planes_give_the_same_drag_for_all_t
 
 #[test]
 fn position_between_the_nodes_changes_drag_by_a_tenth_of_its_error() {
-    let mut budget = Budget::oracle(6_500_000);
+    let mut budget = Budget::oracle(5_300_000);
     let at = |shift, budget: &mut Budget| {
         let array = SC.array(12, dhumieres(1.0));
         SC.error(&Array { part: Part::Whole { shift }, ..array }, budget)
@@ -164,8 +168,9 @@ fn position_between_the_nodes_changes_drag_by_a_tenth_of_its_error() {
 #[test]
 fn drag_does_not_depend_on_a_small_reynolds_number() {
     let mut budget = Budget::oracle(1_900_000);
-    let [slow, faster, fast] = [0.001, 0.01, 0.1]
-        .map(|reynolds| SC.flow(&Array { reynolds, ..SC.array(12, dhumieres(0.8)) }, &mut budget));
+    let [slow, faster, fast] = [0.001, 0.01, 0.1].map(|reynolds| {
+        SC.flow(&Array { reynolds, ..SC.array(12, dhumieres(0.8)) }, STEADIER, &mut budget)
+    });
     assert!(slow.reynolds < 0.002 && (9.9..10.1).contains(&(faster.reynolds / slow.reynolds)));
     // By symmetry the drag of an array is even in U: inertia enters as Re², 1e-4 here and 1e-2 below.
     assert!(
@@ -185,7 +190,7 @@ fn drag_does_not_depend_on_a_small_reynolds_number() {
 #[test]
 fn error_with_noble_torczynskis_weight_falls_on_finer_grids_at_every_tau_and_grows_with_tau_as_the_leak()
  {
-    let mut budget = Budget::oracle(12_500_000);
+    let mut budget = Budget::oracle(10_500_000);
     let errors = [0.6, 0.8, 1.0, 1.5].map(|tau| {
         let [coarse, fine] =
             [8, 16].map(|side| SC.error(&SC.array(side, dhumieres(tau)), &mut budget));
@@ -212,7 +217,7 @@ fn error_with_noble_torczynskis_weight_falls_on_finer_grids_at_every_tau_and_gro
 #[test]
 fn error_with_the_solid_fraction_as_weight_changes_sign_with_tau_and_does_not_fall_on_finer_grids()
 {
-    let mut budget = Budget::oracle(8_300_000);
+    let mut budget = Budget::oracle(6_800_000);
     let mut error = |tau: f64, side: usize| {
         let array = SC.array(side, dhumieres(tau));
         SC.error(&Array { weighting: Weighting::SolidFraction, ..array }, &mut budget)
@@ -237,7 +242,7 @@ fn error_with_the_solid_fraction_as_weight_changes_sign_with_tau_and_does_not_fa
 
 #[test]
 fn dhumieres_rates_with_bounce_back_err_least_from_tau_0_6_up_in_dilute_and_dense_arrays() {
-    let mut budget = Budget::oracle(5_300_000);
+    let mut budget = Budget::oracle(4_200_000);
     for (case, side) in [(SC, 8), (DENSE, 16)] {
         // Below, in the dense array, SRT is as good: -17% against -19% at tau = 0.55.
         for tau in [0.6, 0.8, 1.0, 1.5] {
@@ -254,7 +259,7 @@ fn dhumieres_rates_with_bounce_back_err_least_from_tau_0_6_up_in_dilute_and_dens
             for (name, collision, operator) in others {
                 let other = error(collision, operator, &mut budget);
                 println!("{}, tau {tau}: {best:.4}, {name} {other:.4}", case.lattice.name());
-                // Both too low, by different amounts; 1e-3 is a hundred times what is open.
+                // Both too low, by different amounts; 1e-3 is twenty times what is open.
                 assert!(
                     other < best - 1e-3 && best < 0.0,
                     "tau {tau}: {name} errs by {other}, d'Humieres' rates by {best}: they \

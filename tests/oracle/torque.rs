@@ -44,7 +44,7 @@ fn spinning(
 
 #[test]
 fn torque_in_a_simple_cubic_array_converges_to_theory_and_opposes_the_spin() {
-    let mut budget = Budget::oracle(30_000_000);
+    let mut budget = Budget::oracle(23_500_000);
     let nu = viscosity(TAU);
     let mut errors = Vec::new();
     for (diameter, allowed) in [(8.0, 0.12), (12.0, 0.06), (16.0, 0.03)] {
@@ -58,10 +58,11 @@ fn torque_in_a_simple_cubic_array_converges_to_theory_and_opposes_the_spin() {
         let setup =
             spinning([side, side, side / 2], faces, (centre, a), angular_velocity, dhumieres(TAU));
         let mut solver = Solver::new(setup).unwrap();
-        // The slowest mode falls by e in (L/2π)²/ν steps. Three such windows below 1e-4 leave 1e-5.
+        // The slowest mode falls by e in (L/2π)²/ν steps. Three such windows below 1e-3 leave 1e-4, of
+        // errors of 1e-2 and more.
         let window = (side as f64 / (2.0 * PI)).powi(2) / nu;
         let torque = |solver: &Solver| 2.0 * solver.loads()[0].torque.z;
-        let torque = budget.run_to_steady(&mut solver, window.ceil() as u64, 1e-4, torque);
+        let torque = budget.run_to_steady(&mut solver, window.ceil() as u64, 1e-3, torque);
 
         let phi = 4.0 / 3.0 * PI * a.powi(3) / (side as f64).powi(3);
         let theory = -8.0 * PI * nu * a.powi(3) * omega / (1.0 - phi);

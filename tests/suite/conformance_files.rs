@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
+use crate::conformance::kit;
 use psmrt::conformance::KIT_VERSION;
 use psmrt::conformance::checksums::{agree, parse, rows};
 use psmrt::conformance::files::files;
@@ -40,7 +41,7 @@ fn check(kit: &Path, candidate: &Path) -> (Option<i32>, String, String) {
 
 #[test]
 fn two_exports_have_the_same_bytes_and_are_small() {
-    let (one, two) = (files(&Kit::make().unwrap()), files(&Kit::make().unwrap()));
+    let (one, two) = (files(kit()), files(&Kit::make().unwrap()));
     assert_eq!(one, two);
     let bytes: usize = one.values().map(Vec::len).sum();
     assert!(bytes < 3_000_000, "{bytes}");
@@ -53,8 +54,7 @@ fn kit_is_the_committed_one_or_has_another_version() {
     let remedy = "a change of any value of the kit needs a higher KIT_VERSION (src/conformance/mod.rs) and \
                   new checksums (golden/conformance/README.md)";
     assert_eq!(version, KIT_VERSION, "{remedy}");
-    let kit = Kit::make().unwrap();
-    let found = rows(&kit, &files(&kit));
+    let found = rows(kit(), &files(kit()));
     assert_eq!(found.len(), committed.len(), "{remedy}");
     for (found, committed) in found.iter().zip(&committed) {
         assert!(agree(found, committed), "{found:?} was {committed:?}: {remedy}");
@@ -63,7 +63,7 @@ fn kit_is_the_committed_one_or_has_another_version() {
 
 #[test]
 fn checksums_see_a_change_of_any_value_beyond_what_machines_differ_in() {
-    let mut kit = Kit::make().unwrap();
+    let mut kit = kit().clone();
     let before = rows(&kit, &files(&kit));
     let changed = |kit: &Kit| {
         let after = rows(kit, &files(kit));
@@ -84,7 +84,7 @@ fn checksums_see_a_change_of_any_value_beyond_what_machines_differ_in() {
 
 #[test]
 fn manifest_keeps_its_schema_and_lists_every_file() {
-    let files = files(&Kit::make().unwrap());
+    let files = files(kit());
     let manifest: Value = serde_json::from_slice(&files["manifest.json"]).unwrap();
     let schema: Value = serde_json::from_slice(&files["manifest.schema.json"]).unwrap();
     for required in schema["required"].as_array().unwrap() {

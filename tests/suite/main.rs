@@ -8,6 +8,8 @@
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../conformance/mod.rs"]
+mod conformance;
 #[path = "../edges/mod.rs"]
 mod edges;
 
