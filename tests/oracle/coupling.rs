@@ -228,7 +228,7 @@ fn release(
 
 #[test]
 fn released_sphere_starts_as_basset_boussinesq_and_oseen_say_if_the_internal_fluid_is_lagged() {
-    let mut budget = Budget::oracle(27_000_000);
+    let mut budget = Budget::oracle(25_000_000);
     const STEPS: u16 = 150;
     for ratio in [1.01, 1.5, 2.65, 10.0] {
         let exact = released_sphere(4.0, ratio, viscosity(0.6), 1.0, STEPS.into());

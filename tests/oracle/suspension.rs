@@ -18,7 +18,7 @@ const EXPONENTS: [f64; 2] = [4.65, 5.1];
 
 #[test]
 fn random_suspension_settles_as_its_far_field_and_as_richardson_and_zaki_say() {
-    let mut budget = Budget::oracle(59_500_000);
+    let mut budget = Budget::oracle(59_000_000);
     let rows = golden_rows("suspension/far_field.csv");
     let own = rows.iter().filter(|row| &row[0] == "0.1" && &row[1] == "20");
     let mut estimates = Vec::new();

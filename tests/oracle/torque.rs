@@ -44,7 +44,7 @@ fn spinning(
 
 #[test]
 fn torque_in_a_simple_cubic_array_converges_to_theory_and_opposes_the_spin() {
-    let mut budget = Budget::oracle(23_500_000);
+    let mut budget = Budget::oracle(23_000_000);
     let nu = viscosity(TAU);
     let mut errors = Vec::new();
     for (diameter, allowed) in [(8.0, 0.12), (12.0, 0.06), (16.0, 0.03)] {

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use crate::cli::{Folder, psmrt, stderr};
@@ -142,12 +143,22 @@ fn assert_same(a: &[(PathBuf, Vec<u8>)], b: &[(PathBuf, Vec<u8>)], what: &str) {
 
 /// The reference, and how long it took.
 fn uninterrupted(folder: &Folder, scene: &Path) -> (Vec<(PathBuf, Vec<u8>)>, Duration) {
-    // For the three tests of this file that compare one run with the whole.
-    Budget::oracle(8_400_000).spend(3 * 2 * 600 * 16 * 12 * 12);
     let out = folder.path("whole");
     let begin = std::time::Instant::now();
     assert!(start(scene, &out).wait().unwrap().success());
     (results(&out), begin.elapsed())
+}
+
+/// The results of [`SCENE`], run once for the three tests that compare one run with them.
+fn whole() -> &'static [(PathBuf, Vec<u8>)] {
+    static WHOLE: OnceLock<Vec<(PathBuf, Vec<u8>)>> = OnceLock::new();
+    WHOLE.get_or_init(|| {
+        // This run, and theirs.
+        Budget::oracle(5_600_000).spend(4 * 600 * 16 * 12 * 12);
+        let folder = Folder::new("reference");
+        let scene = folder.write("scene.toml", SCENE);
+        uninterrupted(&folder, &scene).0
+    })
 }
 
 #[test]
@@ -239,8 +250,7 @@ fn a_damaged_checkpoint_is_refused_and_the_older_one_offered_and_used() {
     }
     let output = psmrt(&["resume", out.to_str().unwrap(), "--checkpoint", older.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));
-    let (whole, _) = uninterrupted(&folder, &folder.path("scene.toml"));
-    assert_same(&whole, &results(&out), "from the older one");
+    assert_same(whole(), &results(&out), "from the older one");
 }
 
 #[test]
@@ -290,8 +300,7 @@ fn an_interruption_saves_the_state_and_says_how_to_go_on() {
     assert_eq!(output.status.code(), Some(130));
     let output = psmrt(&["resume", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));
-    let (whole, _) = uninterrupted(&folder, &scene);
-    assert_same(&whole, &results(&out), "after Ctrl-C");
+    assert_same(whole(), &results(&out), "after Ctrl-C");
 }
 
 #[cfg(target_os = "linux")]
@@ -312,6 +321,5 @@ fn a_full_disk_loses_nothing_that_was_written_before() {
     assert_eq!(list(&out), before);
     let output = psmrt(&["resume", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));
-    let (whole, _) = uninterrupted(&folder, &folder.path("scene.toml"));
-    assert_same(&whole, &results(&out), "after a full disk");
+    assert_same(whole(), &results(&out), "after a full disk");
 }
