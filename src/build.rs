@@ -6,8 +6,16 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the program is made of. Reports are written to `report/validation`, which is no source.
-const SOURCES: [&str; 6] =
-    ["src", "reference", "report/src", "report/Cargo.toml", "Cargo.toml", "Cargo.lock"];
+const SOURCES: [&str; 8] = [
+    "src",
+    "reference",
+    "report/src",
+    "report/Cargo.toml",
+    "tests/validation/src",
+    "tests/validation/Cargo.toml",
+    "Cargo.toml",
+    "Cargo.lock",
+];
 
 fn main() {
     // Each time that the sources change, they may begin or cease to be those of the commit.
