@@ -6,6 +6,8 @@ use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::law::{ContactLaw, damping_ratio};
 use psmrt_reference::grains::lubrication::Lubrication;
 use psmrt_reference::grains::plane::Plane;
+use psmrt_reference::grains::random::SplitMix64;
+use psmrt_reference::grains::setup::PeriodicBox;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
@@ -135,4 +137,36 @@ fn walls_of_a_domain_face_inwards_two_for_each_axis_asked_for() {
     // Distances of a point inside: 1.5 - 1, 5 - 1.5, 5 - 3, 9 - 5.
     let heights: Vec<f64> = walls.iter().map(|wall| wall.height(&inside)).collect();
     assert_eq!(heights, [0.5, 3.5, 2.0, 4.0], "distances from the walls across x and z");
+}
+
+#[test]
+fn random_numbers_are_those_of_the_published_generator() {
+    // The sequence of seed 1234567 that implementations of SplitMix64 are compared by (Vigna's splitmix64.c).
+    let known: [u64; 5] = [
+        6_457_827_717_110_365_317,
+        3_203_168_211_198_807_973,
+        9_817_491_932_198_370_423,
+        4_593_380_528_125_082_431,
+        16_408_922_859_458_223_821,
+    ];
+    let sequence = || SplitMix64::new(1_234_567);
+    let (mut bits, mut units, mut below) = (sequence(), sequence(), sequence());
+    for (place, value) in known.into_iter().enumerate() {
+        assert_eq!(bits.bits(), value, "bits of number {place}");
+        // The upper 53 bits over 2^53, and the remainder.
+        let unit = (value / 2048) as f64 / 9_007_199_254_740_992.0;
+        assert_eq!(units.unit(), unit, "number {place} in 0..1");
+        assert_eq!(below.below(1000) as u64, value % 1000, "number {place} below 1000");
+    }
+}
+
+#[test]
+fn a_place_is_wrapped_into_the_domain_along_periodic_axes_only() {
+    let sides = PeriodicBox { lengths: [Some(4.0), None, Some(8.0)] };
+    let wrapped = sides.wrap(&Vec3::new(-1.0, -1.0, 17.0));
+    assert_eq!(
+        wrapped,
+        Vec3::new(3.0, -1.0, 1.0),
+        "(-1, -1, 17) in a domain of 4 along x and 8 along z"
+    );
 }
