@@ -66,7 +66,7 @@ struct Fields {
     solid_fraction: Option<Vec<f64>>,
 }
 
-/// Bytes of [`Fields`] a cell.
+/// Bytes that the fields of a cell take.
 pub const BYTES_OF_FIELDS: u64 = 5 * size_of::<f64>() as u64;
 
 impl Fields {

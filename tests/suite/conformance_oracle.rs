@@ -143,7 +143,7 @@ fn oracle_rounded_to_single_and_half_precision_passes_by_these_and_fails_by_a_hi
         // Stages 0, 3, 6 and one problem of 8 were left out: not attempted, not failed.
         assert_eq!(stages(|judged| judged.outcome == Outcome::NotAttempted), 6 + 3 + 8 + 3);
     }
-    let mut too_proud = Submission::of(&kit, &mut Rounded(Precision::F32));
+    let mut too_proud = Submission::of(kit, &mut Rounded(Precision::F32));
     too_proud.precision = Precision::F64;
     let verdict = judge_submission(kit, &too_proud);
     assert!(!verdict.passed());
