@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn laws_of_beds_give_what_was_computed_apart_from_them() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/seepage/literature.csv");
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/seepage/literature.csv");
         let table = Table::read(Path::new(path)).unwrap();
         let [phi, re] = ["solid_fraction", "Re"].map(|name| table.numbers(name).unwrap());
         for law in &BED_LAWS {
