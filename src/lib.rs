@@ -8,16 +8,13 @@
 //! | [`run`] | the time loop |
 //! | [`checkpoint`] | the state of a run in a file |
 //! | [`output`] | CSV, pictures, the folder of a run |
-//! | [`estimate`] | what a scene is, what it will cost and what may go wrong |
+//! | [`advice`] | what a scene will cost, how wrong it will be and what may go wrong; the cheapest settings |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`courses`] | what prescribed spheres run into |
 //! | [`stopped_grain`] | why a run stopped at a free grain |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | numbers and sizes of grains to pack |
-//! | [`tradeoff`] | error models, and the runs that they rest on |
-//! | [`plan`] | the cheapest settings with which a scene has a given error |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
-//! | [`stability`] | how fast a flow may be and how light a grain, from the maps of stability |
 //! | [`table`] | rows of named columns, as CSV files hold them |
 //! | [`units`] | SI units and lattice units |
 //! | [`input`] | reading of files that the user names |
@@ -28,25 +25,22 @@
 #![warn(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 #![warn(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads: see command/say.rs
 
+pub mod advice;
 pub mod checkpoint;
 pub mod command;
 pub mod conformance;
 pub mod courses;
 pub mod engine;
-pub mod estimate;
 pub mod exact;
 pub mod input;
 pub mod kernel;
 pub mod machine;
 pub mod output;
 pub mod packing;
-pub mod plan;
 pub mod provenance;
 pub mod quote;
 pub mod run;
 pub mod scene;
-pub mod stability;
 pub mod stopped_grain;
 pub mod table;
-pub mod tradeoff;
 pub mod units;

@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::say::say;
 use super::{CommandError, engine};
-use crate::estimate::{calibrate, disk, models, numbers, warnings};
+use crate::advice::estimate::{calibrate, disk, models, numbers, warnings};
 use crate::scene::Scene;
 
 /// What `psmrt check` is asked for.

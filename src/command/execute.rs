@@ -14,7 +14,7 @@ use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, summary, write};
 use crate::checkpoint::Progress;
 use crate::engine::Coupled;
-use crate::estimate::{Warning, disk, warnings};
+use crate::advice::estimate::{Warning, disk, warnings};
 use crate::output::folder::RunFolder;
 use crate::output::{atomic, csv, grain_plots, names, plot};
 use crate::run::{End, run as run_scene};

@@ -22,7 +22,7 @@ use thiserror::Error;
 use crate::checkpoint::CheckpointError;
 use crate::conformance::files::FilesError;
 use crate::engine::{Coupled, DeviceError, StartError, open};
-use crate::estimate::memory;
+use crate::advice::estimate::memory;
 use crate::kernel::{Gpu, KernelError, adapters};
 use crate::output::folder::FolderError;
 use crate::run::RunError;

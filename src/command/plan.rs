@@ -10,21 +10,21 @@ use serde_json::{Value, json};
 use super::plan_text::{print, to_json, words};
 use super::say::say;
 use super::{CommandError, engine, engine_changes};
-use crate::estimate::calibrate;
+use crate::advice::estimate::calibrate;
 use crate::kernel::adapters;
 use crate::output::atomic;
-use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::{
+use crate::advice::plan::facts::{Facts, Limit};
+use crate::advice::plan::options::{
     PlanOption, Speed, as_it_is, cheapest, most_accurate, options, why_none,
 };
-use crate::plan::predict::{Outside, percent};
-use crate::plan::write::text;
+use crate::advice::plan::predict::{Outside, percent};
+use crate::advice::plan::write::text;
 use crate::quote;
 use crate::scene::{EngineKind, Scene};
 use crate::table::TableError;
-use crate::tradeoff::cost::mrt_over_srt;
-use crate::tradeoff::model::{LEAST_ERROR, Models};
-use crate::tradeoff::support;
+use crate::advice::tradeoff::cost::mrt_over_srt;
+use crate::advice::tradeoff::model::{LEAST_ERROR, Models};
+use crate::advice::tradeoff::support;
 
 /// What `psmrt plan` is asked for.
 #[derive(Clone, Debug)]
@@ -251,7 +251,7 @@ fn evidence(facts: &Facts, models: &Models, best: &PlanOption) -> Result<Vec<Str
         Limit::Plates { .. } => Ok(support::of_walls(models, best.collision)),
         Limit::Duct { ratio, .. } => Ok(vec![format!(
             "a duct {ratio:.2} times as wide as high: what half-way walls and the grid do to second order is known \
-             in closed form (src/plan/duct.rs); the ducts of golden/duct/expected.csv lie within the band"
+             in closed form (src/advice/plan/duct.rs); the ducts of golden/duct/expected.csv lie within the band"
         )]),
     }
 }

@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 
 use super::check::duration;
 use super::say::say;
-use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::PlanOption;
-use crate::plan::predict::{Outside, percent};
+use crate::advice::plan::facts::{Facts, Limit};
+use crate::advice::plan::options::PlanOption;
+use crate::advice::plan::predict::{Outside, percent};
 use crate::scene::Scene;
 
 /// An option in one line.

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use serde_json::Value;
 
 use super::format::SceneFile;
-use crate::stability::limits::Measured;
+use crate::advice::stability::limits::Measured;
 use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::Weighting;
 

@@ -2,12 +2,12 @@
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
-use psmrt::estimate::warnings;
-use psmrt::plan::facts::{Facts, Limit};
-use psmrt::plan::options::{PlanOption, Speed, cheapest, options};
-use psmrt::plan::write::text;
+use psmrt::advice::estimate::warnings;
+use psmrt::advice::plan::facts::{Facts, Limit};
+use psmrt::advice::plan::options::{PlanOption, Speed, cheapest, options};
+use psmrt::advice::plan::write::text;
 use psmrt::scene::Scene;
-use psmrt::tradeoff::model::Models;
+use psmrt::advice::tradeoff::model::Models;
 use psmrt_reference::collision::Preset;
 use std::fs;
 use std::path::Path;

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
 use psmrt::engine::{Coupled, open, starting_from};
-use psmrt::estimate::{disk, warnings};
+use psmrt::advice::estimate::{disk, warnings};
 use psmrt::output::records::{box_row, profile_rows};
 use psmrt::output::slice;
 use psmrt::scene::format_run::Quantity;

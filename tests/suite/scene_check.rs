@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use psmrt::estimate::{models, numbers, warnings};
+use psmrt::advice::estimate::{models, numbers, warnings};
 use psmrt::scene::Scene;
 
 /// A grain of quartz in water in a closed box, 8 cells per diameter.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::common::Budget;
 use psmrt::engine::open;
-use psmrt::estimate::warnings;
+use psmrt::advice::estimate::warnings;
 use psmrt::output::records::load_rows;
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::Gravity;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::Budget;
 use psmrt::engine::{Coupled, open};
-use psmrt::estimate::{Warning, warnings};
+use psmrt::advice::estimate::{Warning, warnings};
 use psmrt::scene::Scene;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::CS2;

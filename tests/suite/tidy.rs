@@ -223,12 +223,12 @@ fn rooms_of_the_product_use_only_those_below_them() {
 fn the_product_embeds_no_golden_table_but_those_of_its_error_models_and_limits() {
     // To be replaced by their coefficients.
     const STILL: [&str; 6] = [
-        "src/plan/facts.rs",
-        "src/stability/limits.rs",
-        "src/tradeoff/cost.rs",
-        "src/tradeoff/evidence.rs",
-        "src/tradeoff/evidence_low.rs",
-        "src/tradeoff/trial.rs",
+        "src/advice/plan/facts.rs",
+        "src/advice/stability/limits.rs",
+        "src/advice/tradeoff/cost.rs",
+        "src/advice/tradeoff/evidence.rs",
+        "src/advice/tradeoff/evidence_low.rs",
+        "src/advice/tradeoff/trial.rs",
     ];
     for path in files("src", &[".rs"]) {
         let text = text(&path);

@@ -2,7 +2,7 @@
 //!
 //! No exact answer is known for spheres at random places. Their drag is taken from our own finest grids, where
 //! the method errs by a percent or two, less what the errors' own form says of it: the velocity under a given
-//! force is `U [1 + A (τ - 1/2)/d² + B/d^p]` with d cells per diameter (`src/tradeoff/model.rs`), in which U, A
+//! force is `U [1 + A (τ - 1/2)/d² + B/d^p]` with d cells per diameter (`src/advice/tradeoff/model.rs`), in which U, A
 //! and B are free, and p = 2.85 as ordered arrays have it. Exponents 2 and 4 say how much hangs on that.
 //! Writes `golden/tradeoff/random_drag.csv` anew; some minutes on a core.
 
@@ -12,7 +12,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
-use psmrt::tradeoff::parameters::{Flow, Parameters};
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
 use psmrt_validation::tradeoff::measure::Runner;
 
 const FILE: &str = "golden/tradeoff/random_drag.csv";

@@ -19,11 +19,11 @@ use psmrt::command::write;
 use psmrt::kernel::Gpu;
 use psmrt::output::atomic;
 use psmrt::table::Table;
-use psmrt::tradeoff::evidence::{grain_points, wall_points};
-use psmrt::tradeoff::model::Models;
-use psmrt::tradeoff::parameters::{Flow, Parameters};
-use psmrt::tradeoff::row::Row;
-use psmrt::tradeoff::trial::trials;
+use psmrt::advice::tradeoff::evidence::{grain_points, wall_points};
+use psmrt::advice::tradeoff::model::Models;
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
+use psmrt::advice::tradeoff::row::Row;
+use psmrt::advice::tradeoff::trial::trials;
 
 /// What `cargo validate tradeoff` is asked for.
 #[derive(Args, Clone, Debug)]
@@ -113,7 +113,7 @@ fn summarise(
     let models = Models::fit(&grain_points(rows)?, &wall_points(rows));
     save(
         "fits.csv",
-        "Error models (src/tradeoff/model.rs) and their bands",
+        "Error models (src/advice/tradeoff/model.rs) and their bands",
         &tables::fits(&models),
     )?;
     save(

@@ -32,7 +32,7 @@ use thiserror::Error;
 use psmrt::engine::{EngineName, EngineStop, StartError};
 
 pub use lab::Lab;
-pub use psmrt::stability::Outcome;
+pub use psmrt::advice::stability::Outcome;
 pub use search::map;
 
 /// All flows.

@@ -12,7 +12,7 @@ use psmrt::engine::{self, Coupled};
 use psmrt::kernel::Gpu;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
-use psmrt::tradeoff::parameters::{Flow, Parameters};
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
 
 /// Rounds, and how long one scene runs in each: short enough to fall between what else the machine does.
 const ROUNDS: usize = 80;

@@ -7,9 +7,9 @@ use super::cost::seconds_per_update;
 use super::pareto::front;
 use crate::cases::CaseError;
 use psmrt::table::Table;
-use psmrt::tradeoff::parameters::{Flow, Storage};
-use psmrt::tradeoff::row::Row;
-use psmrt::tradeoff::trial::{Trial, score};
+use psmrt::advice::tradeoff::parameters::{Flow, Storage};
+use psmrt::advice::tradeoff::row::Row;
+use psmrt::advice::tradeoff::trial::{Trial, score};
 
 /// Errors below this are drawn at it: a log axis has no zero.
 const FLOOR: f64 = 1e-8;

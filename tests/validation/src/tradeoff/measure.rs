@@ -14,8 +14,8 @@ use psmrt::kernel::Gpu;
 use psmrt::output::records::profile_rows;
 use psmrt::run::{End, RunError};
 use psmrt::scene::check::records::middle;
-use psmrt::tradeoff::parameters::{Flow, Parameters};
-use psmrt::tradeoff::row::Row;
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
+use psmrt::advice::tradeoff::row::Row;
 use std::sync::Arc;
 
 /// Bytes that an engine keeps per cell for populations: two copies of 19 of 8 or 4 bytes.

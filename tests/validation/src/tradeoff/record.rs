@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::cases::CaseError;
 use psmrt::table::{Table, TableError};
-use psmrt::tradeoff::parameters::Parameters;
-use psmrt::tradeoff::row::Row;
+use psmrt::advice::tradeoff::parameters::Parameters;
+use psmrt::advice::tradeoff::row::Row;
 
 /// A file of rows that new ones are added to.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use psmrt_reference::lattice::viscosity;
 use crate::cases::CaseError;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
-use psmrt::tradeoff::parameters::{Flow, Parameters, Storage};
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
 
 /// Viscosity of all scenes, m2/s.
 const SI_VISCOSITY: f64 = 1e-6;

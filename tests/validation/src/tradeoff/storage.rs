@@ -14,7 +14,7 @@ use psmrt::engine::{
     Block, BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine,
 };
 use psmrt::scene::Scene;
-use psmrt::tradeoff::parameters::Storage;
+use psmrt::advice::tradeoff::parameters::Storage;
 
 /// The oracle with populations rounded after every step.
 #[derive(Debug)]

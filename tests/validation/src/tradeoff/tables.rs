@@ -2,11 +2,11 @@
 
 use super::figures::{on_front, placed, problems};
 use psmrt::table::Table;
-use psmrt::tradeoff::evidence::SolidMethod;
-use psmrt::tradeoff::model::Models;
-use psmrt::tradeoff::parameters::COLUMNS;
-use psmrt::tradeoff::row::Row;
-use psmrt::tradeoff::trial::Trial;
+use psmrt::advice::tradeoff::evidence::SolidMethod;
+use psmrt::advice::tradeoff::model::Models;
+use psmrt::advice::tradeoff::parameters::COLUMNS;
+use psmrt::advice::tradeoff::row::Row;
+use psmrt::advice::tradeoff::trial::Trial;
 use psmrt_reference::collision::Preset;
 
 /// The models with their parameters, standard errors and bands.

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
-use psmrt::estimate::warnings;
+use psmrt::advice::estimate::warnings;
 use psmrt::scene::Scene;
-use psmrt::stability::limits::Measured;
+use psmrt::advice::stability::limits::Measured;
 use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::Weighting;
 

@@ -3,14 +3,14 @@
 use crate::common::{Budget, golden_rows};
 use proptest::prelude::*;
 use psmrt::table::Table;
-use psmrt::tradeoff::evidence::{
+use psmrt::advice::tradeoff::evidence::{
     GrainPoint, SolidMethod, committed_sweep, grain_points, wall_points,
 };
-use psmrt::tradeoff::model::{GrainModel, Models};
-use psmrt::tradeoff::model_eps::EpsModel;
-use psmrt::tradeoff::parameters::{Flow, Parameters, Storage};
-use psmrt::tradeoff::row::Row;
-use psmrt::tradeoff::trial::{committed_results, score, trials};
+use psmrt::advice::tradeoff::model::{GrainModel, Models};
+use psmrt::advice::tradeoff::model_eps::EpsModel;
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
+use psmrt::advice::tradeoff::row::Row;
+use psmrt::advice::tradeoff::trial::{committed_results, score, trials};
 use psmrt_reference::collision::Preset;
 use psmrt_report::render_svg;
 use psmrt_validation::cases::{CASES, Golden};

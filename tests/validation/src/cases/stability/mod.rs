@@ -5,7 +5,7 @@ pub(super) mod figures;
 
 use super::{Bench, Case, CaseError, Claim, Golden};
 use figures::draw;
-use psmrt::stability::limits::{Frontier, frontiers};
+use psmrt::advice::stability::limits::{Frontier, frontiers};
 use psmrt::table::Table;
 
 /// Stability at the extremes.

@@ -7,11 +7,11 @@ use super::{Bench, Case, CaseError, Claim, Golden};
 use crate::tradeoff::effects::effects;
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
 use psmrt::table::Table;
-use psmrt::tradeoff::evidence::{SolidMethod, grain_points, wall_points};
-use psmrt::tradeoff::model::Models;
-use psmrt::tradeoff::parameters::{Flow, Storage};
-use psmrt::tradeoff::row::Row;
-use psmrt::tradeoff::trial::{Trial, score, trials};
+use psmrt::advice::tradeoff::evidence::{SolidMethod, grain_points, wall_points};
+use psmrt::advice::tradeoff::model::Models;
+use psmrt::advice::tradeoff::parameters::{Flow, Storage};
+use psmrt::advice::tradeoff::row::Row;
+use psmrt::advice::tradeoff::trial::{Trial, score, trials};
 
 /// The trade-off study.
 pub const CASE: Case = Case {
@@ -28,7 +28,7 @@ pub const CASE: Case = Case {
          d being the cells per diameter and K the drag over Stokes' drag: grains of partially saturated cells \
          leak, in proportion to viscosity and drag; what cells that are covered in part add falls faster. \
          With the superposition operator the same form holds with larger numbers; with B = eps a second error of \
-         opposite sign is added, which falls only as 1/d (src/tradeoff/model_eps.rs). psmrt plan uses these models. \
+         opposite sign is added, which falls only as 1/d (src/advice/tradeoff/model_eps.rs). psmrt plan uses these models. \
          They were fitted without the configurations of the last figure, whose list was committed before.",
         "Spheres at random places have no exact answer: their drag is that of our own finest grids, less what the \
          error's form says of it (golden/tradeoff/random_drag.csv, with how much hangs on that). It is a test of how \

@@ -2,7 +2,7 @@
 
 use super::warning;
 use crate::courses::{Lookout, leavings};
-use crate::estimate::Warning;
+use crate::advice::estimate::Warning;
 use crate::scene::Scene;
 
 /// Places of spheres that are looked at, at most: a second's work. A run looks ahead as it goes.

@@ -3,10 +3,10 @@
 use psmrt_reference::coupling::InternalFluid;
 
 use super::warning;
-use crate::estimate::Warning;
-use crate::plan::facts::lightest;
+use crate::advice::estimate::Warning;
+use crate::advice::plan::facts::lightest;
 use crate::scene::Scene;
-use crate::stability::limits;
+use crate::advice::stability::limits;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let Some((ratio, inside)) = lightest(scene) else { return Vec::new() };

@@ -6,8 +6,8 @@ use crate::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
 
 /// The committed rows, part of the program so that `psmrt plan` works anywhere.
-const SWEEP: &str = include_str!("../../golden/tradeoff/sweep.csv");
-const STUDY: &str = include_str!("../../golden/sphere_arrays/study.csv");
+const SWEEP: &str = include_str!("../../../golden/tradeoff/sweep.csv");
+const STUDY: &str = include_str!("../../../golden/sphere_arrays/study.csv");
 
 /// The grids that count: coarser ones have more than one error, and finer ones cost too much to be many.
 const LEAST_CELLS: f64 = 3.9;

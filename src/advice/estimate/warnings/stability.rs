@@ -5,11 +5,11 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
 
 use super::warning;
-use crate::estimate::bed::{DENSE, bed};
-use crate::estimate::spheres::solid_fraction;
-use crate::estimate::{Warning, diameters, si_velocity};
+use crate::advice::estimate::bed::{DENSE, bed};
+use crate::advice::estimate::spheres::solid_fraction;
+use crate::advice::estimate::{Warning, diameters, si_velocity};
 use crate::scene::Scene;
-use crate::stability::limits::Measured;
+use crate::advice::stability::limits::Measured;
 
 /// The flow of the maps that a scene is compared with, in words too, and how fast it is: cells per step, and where
 /// that comes from. `None` if no velocity is known.

@@ -6,7 +6,7 @@ use psmrt_reference::grains::grain::sphere_volume;
 use psmrt_reference::lattice::Vec3;
 
 use super::warning;
-use crate::estimate::Warning;
+use crate::advice::estimate::Warning;
 use crate::scene::Scene;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {

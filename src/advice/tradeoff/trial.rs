@@ -6,10 +6,10 @@ use super::parameters::Parameters;
 use super::row::Row;
 use crate::table::{Table, TableError};
 
-const RESULTS: &str = include_str!("../../golden/tradeoff/held_back_results.csv");
+const RESULTS: &str = include_str!("../../../golden/tradeoff/held_back_results.csv");
 
 /// The list itself, part of the program.
-const LIST: &str = include_str!("../../golden/tradeoff/held_back.csv");
+const LIST: &str = include_str!("../../../golden/tradeoff/held_back.csv");
 
 /// How many of the list were chosen first: bands were widened, once, after these had been run.
 const FIRST: usize = 27;

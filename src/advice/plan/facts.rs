@@ -11,18 +11,18 @@ use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::solids::Solid;
 
 use super::duct::Duct;
-use crate::estimate::bed::{Bed, bed};
-use crate::estimate::grains::free;
-use crate::estimate::si_velocity;
-use crate::estimate::spheres::{solid_fraction, spheres};
-use crate::estimate::warnings::stability::mapped;
+use crate::advice::estimate::bed::{Bed, bed};
+use crate::advice::estimate::grains::free;
+use crate::advice::estimate::si_velocity;
+use crate::advice::estimate::spheres::{solid_fraction, spheres};
+use crate::advice::estimate::warnings::stability::mapped;
 use crate::scene::Scene;
-use crate::stability::limits::Measured;
+use crate::advice::stability::limits::Measured;
 use crate::table::{Table, TableError};
-use crate::tradeoff::evidence::SolidMethod;
+use crate::advice::tradeoff::evidence::SolidMethod;
 
-const ARRAYS: &str = include_str!("../../golden/sphere_arrays/literature.csv");
-const SHAFTS: &str = include_str!("../../golden/stokes_settling/literature.csv");
+const ARRAYS: &str = include_str!("../../../golden/sphere_arrays/literature.csv");
+const SHAFTS: &str = include_str!("../../../golden/stokes_settling/literature.csv");
 
 /// What limits the accuracy of a scene.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,9 +6,9 @@ use super::row::Row;
 use crate::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
 
-const SEEPAGE: &str = include_str!("../../golden/seepage/study.csv");
+const SEEPAGE: &str = include_str!("../../../golden/seepage/study.csv");
 const FILE: &str = "golden/seepage/study.csv";
-const ARRAYS: &str = include_str!("../../golden/sphere_arrays/literature.csv");
+const ARRAYS: &str = include_str!("../../../golden/sphere_arrays/literature.csv");
 
 /// What the ordered beds of the study are called in the sweep, so that both count as one geometry.
 const ORDERED: &str = "seepage 0.6";

@@ -5,7 +5,7 @@ use psmrt_reference::collision::Preset;
 use crate::table::{Table, TableError};
 
 /// The committed figures, part of the program.
-const COMMITTED: &str = include_str!("../../golden/tradeoff/cost.csv");
+const COMMITTED: &str = include_str!("../../../golden/tradeoff/cost.csv");
 
 /// Cost of many relaxation times over that of a single one, on an engine, in a bed: from the committed
 /// figures.

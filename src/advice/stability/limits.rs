@@ -11,9 +11,9 @@ use super::Outcome;
 use crate::table::{Table, TableError};
 
 /// The maps that the warnings rest on, as they are committed.
-const SHEAR_LAYER: &str = include_str!("../../golden/stability/shear_layer.csv");
-const BED: &str = include_str!("../../golden/stability/bed_force.csv");
-const MOVERS: &str = include_str!("../../golden/stability/movers.csv");
+const SHEAR_LAYER: &str = include_str!("../../../golden/stability/shear_layer.csv");
+const BED: &str = include_str!("../../../golden/stability/bed_force.csv");
+const MOVERS: &str = include_str!("../../../golden/stability/movers.csv");
 
 /// Columns that a line of a map has alike.
 const LINE: [&str; 5] = ["engine", "collision", "weight", "variant", "tau"];

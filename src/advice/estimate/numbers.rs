@@ -6,7 +6,7 @@ use psmrt_reference::solids::Shape;
 use super::bed::bed;
 use super::warnings::accuracy::{outlook, subject};
 use super::{Number, diameters, grains, memory, number, si_velocity};
-use crate::plan::predict::Outside;
+use crate::advice::plan::predict::Outside;
 use crate::scene::{EngineKind, Scene};
 
 /// The length for the Reynolds number, m, and what it is.

@@ -2,12 +2,12 @@
 //! `psmrt plan` makes.
 
 use super::warning;
-use crate::estimate::Warning;
-use crate::plan::facts::{Facts, Limit};
-use crate::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
-use crate::plan::predict::{Outside, Parameters, Predicted, percent, predict};
+use crate::advice::estimate::Warning;
+use crate::advice::plan::facts::{Facts, Limit};
+use crate::advice::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
+use crate::advice::plan::predict::{Outside, Parameters, Predicted, percent, predict};
 use crate::scene::{EngineKind, Scene};
-use crate::tradeoff::model::Models;
+use crate::advice::tradeoff::model::Models;
 use psmrt_reference::collision::Preset;
 
 /// A predicted error above this is warned of. Laws of the drag of beds differ by as much from each other, so

@@ -2,8 +2,8 @@
 //! plans by and `psmrt check` warns by.
 
 use super::facts::{Facts, Limit};
-use crate::stability::limits;
-use crate::tradeoff::model::Models;
+use crate::advice::stability::limits;
+use crate::advice::tradeoff::model::Models;
 use psmrt_reference::collision::Preset;
 
 /// Between walls the evidence reaches from 6 to 32 cells; finer grids follow the closed form.

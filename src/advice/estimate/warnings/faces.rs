@@ -3,7 +3,7 @@
 use psmrt_reference::domain::Face;
 
 use super::warning;
-use crate::estimate::Warning;
+use crate::advice::estimate::Warning;
 use crate::scene::Scene;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {

@@ -3,7 +3,7 @@
 use psmrt_reference::lattice::viscosity;
 
 use super::warning;
-use crate::estimate::{Warning, si_velocity};
+use crate::advice::estimate::{Warning, si_velocity};
 use crate::scene::Scene;
 
 /// Speeds above this Mach number make more than a few percent of error.
