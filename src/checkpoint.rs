@@ -22,15 +22,26 @@ use xxhash_rust::xxh3::{Xxh3Default, xxh3_64};
 use crate::engine::Coupled;
 use crate::output::atomic;
 use crate::output::csv::Mark;
-use crate::output::folder::{self, RunFolder};
+use crate::output::folder::RunFolder;
 use crate::output::hashed::Hashed;
-use crate::run::steady::Saved;
-use crate::scene::Scene;
-
-/// Name of the folder of a run's checkpoints.
-pub const FOLDER: &str = "checkpoints";
+use crate::scene::{Scene, names};
 
 const MAGIC: &[u8; 8] = b"PSMRTCK3";
+
+/// What a run knows of a value that is to become steady (`run/steady.rs`); values as their bits.
+#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub struct SteadyWatch {
+    /// Rows seen.
+    pub rows: u64,
+    /// Rows from one sample to the next.
+    pub stride: u64,
+    /// Value, least and most of each sample.
+    pub samples: Vec<[u64; 3]>,
+    /// The rows since the last sample.
+    pub pending: Option<[u64; 3]>,
+    /// Since which row the value has been within the tolerance.
+    pub since: Option<u64>,
+}
 
 /// How the magic of all versions begins.
 const ANY_VERSION: &[u8] = b"PSMRTCK";
@@ -75,7 +86,7 @@ pub struct Progress {
     /// What each record's table holds.
     pub tables: Vec<Mark>,
     /// What the steady-state criterion has seen, if there is one.
-    pub steady: Option<Saved>,
+    pub steady: Option<SteadyWatch>,
 }
 
 impl Header {
@@ -141,7 +152,7 @@ impl Header {
 fn inputs(scene: &Scene) -> Vec<Input> {
     let input = |name: String, bytes: &[u8]| Input { name, hash: xxh3_64(bytes) };
     let lists = scene.attachments.iter().map(|list| input(list.file_name(), &list.bytes));
-    lists.chain([input(folder::SCENE.to_owned(), scene.text.as_bytes())]).collect()
+    lists.chain([input(names::SCENE.to_owned(), scene.text.as_bytes())]).collect()
 }
 
 /// A sum of what has been made of a scene, to the last bit of each number.
@@ -173,7 +184,7 @@ pub enum CheckpointError {
 
 /// The folder of a run's checkpoints.
 pub fn folder(run: &Path) -> PathBuf {
-    run.join(FOLDER)
+    run.join(names::CHECKPOINTS)
 }
 
 /// Saves the state of a run and removes all but the last two checkpoints.

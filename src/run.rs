@@ -16,8 +16,8 @@ use crate::checkpoint::{self, CheckpointError, Progress};
 use crate::courses::Lookout;
 use crate::engine::{Coupled, EngineStop};
 use crate::output::folder::RunFolder;
-use crate::output::names;
 use crate::output::records::Recorder;
+use crate::scene::names;
 use crate::scene::{Interval, OutputInterval, Scene};
 use crate::stopped_grain::{self, GrainStop};
 

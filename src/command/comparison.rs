@@ -8,12 +8,13 @@ use super::execute::write_figure;
 use super::{CommandError, write};
 use crate::engine::Coupled;
 use crate::exact::{Comparison, PlanePoiseuille};
-use crate::output::csv::{self, Column};
-use crate::output::names::COMPARISON;
+use crate::output::csv;
 use crate::output::records::profile_rows;
 use crate::output::{atomic, plot};
 use crate::scene::Scene;
 use crate::scene::check::records::middle;
+use crate::scene::columns::Column;
+use crate::scene::names::COMPARISON;
 
 const COLUMNS: [Column; 3] = [
     Column::new("position", "m"),

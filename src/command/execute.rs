@@ -12,12 +12,13 @@ use serde_json::{Value, json};
 use super::progress::Progress as ProgressBar;
 use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, summary, write};
+use crate::advice::estimate::{Warning, disk, warnings};
 use crate::checkpoint::Progress;
 use crate::engine::Coupled;
-use crate::advice::estimate::{Warning, disk, warnings};
 use crate::output::folder::RunFolder;
-use crate::output::{atomic, csv, grain_plots, names, plot};
+use crate::output::{atomic, csv, grain_plots, plot};
 use crate::run::{End, run as run_scene};
+use crate::scene::names;
 use crate::scene::{Scene, What};
 
 /// The states of runs that there is nothing to go on with.

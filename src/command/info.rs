@@ -92,7 +92,7 @@ fn adapter_facts(adapter: &AdapterFacts) -> Value {
 /// Prints the JSON schema of scene files, or the reference for people.
 pub fn schema(markdown: bool) {
     if markdown {
-        say(crate::scene::schema::reference().trim_end());
+        say(super::scene_reference::reference().trim_end());
     } else {
         say(&format!("{:#}", crate::scene::schema::schema()));
     }

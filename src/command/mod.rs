@@ -13,16 +13,17 @@ pub mod progress;
 pub mod resume;
 pub mod run;
 pub mod say;
+pub mod scene_reference;
 mod summary;
 
 use std::path::Path;
 
 use thiserror::Error;
 
+use crate::advice::estimate::memory;
 use crate::checkpoint::CheckpointError;
 use crate::conformance::files::FilesError;
 use crate::engine::{Coupled, DeviceError, StartError, open};
-use crate::advice::estimate::memory;
 use crate::kernel::{Gpu, KernelError, adapters};
 use crate::output::folder::FolderError;
 use crate::run::RunError;

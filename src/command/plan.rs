@@ -11,20 +11,20 @@ use super::plan_text::{print, to_json, words};
 use super::say::say;
 use super::{CommandError, engine, engine_changes};
 use crate::advice::estimate::calibrate;
-use crate::kernel::adapters;
-use crate::output::atomic;
 use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::{
     PlanOption, Speed, as_it_is, cheapest, most_accurate, options, why_none,
 };
 use crate::advice::plan::predict::{Outside, percent};
 use crate::advice::plan::write::text;
-use crate::quote;
-use crate::scene::{EngineKind, Scene};
-use crate::table::TableError;
 use crate::advice::tradeoff::cost::mrt_over_srt;
 use crate::advice::tradeoff::model::{LEAST_ERROR, Models};
 use crate::advice::tradeoff::support;
+use crate::kernel::adapters;
+use crate::output::atomic;
+use crate::quote;
+use crate::scene::{EngineKind, Scene};
+use crate::table::TableError;
 
 /// What `psmrt plan` is asked for.
 #[derive(Clone, Debug)]

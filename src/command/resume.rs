@@ -9,10 +9,10 @@ use super::say::{say, tell};
 use super::{CommandError, engine, write};
 use crate::checkpoint::{self, CheckpointError, Header, Progress};
 use crate::engine::Coupled;
-use crate::output::folder::{RunFolder, SCENE};
-use crate::output::names::FACTS;
+use crate::output::folder::RunFolder;
 use crate::run::{check_tables, set_aside};
 use crate::scene::Scene;
+use crate::scene::names::{FACTS, SCENE};
 
 /// What `psmrt resume` is asked for.
 #[derive(Clone, Debug)]

@@ -3,11 +3,11 @@
 use serde_json::{Map, Value as Json, json};
 
 use crate::engine::Coupled;
-use crate::output::csv::Column;
 use crate::output::grain_means;
-use crate::output::records::{BOX_COLUMNS, FORCE_COLUMNS, box_row, force_row, profile_rows};
+use crate::output::records::{box_row, force_row, profile_rows};
 use crate::run::End;
 use crate::run::steady::value_of;
+use crate::scene::columns::{BOX_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS};
 use crate::scene::{Scene, What};
 
 /// The values of the records that are numbers, as they are now: by the name of the record, then by its column.
@@ -17,7 +17,7 @@ pub(super) fn results(scene: &Scene, engine: &Coupled) -> Json {
     for record in &scene.records {
         let values: Vec<(Column, f64)> = match &record.what {
             What::Box => pairs(&BOX_COLUMNS, &box_row(scene, engine)),
-            What::GrainMeans => pairs(&grain_means::COLUMNS, &grain_means::row(scene, engine)),
+            What::GrainMeans => pairs(&GRAIN_MEAN_COLUMNS, &grain_means::row(scene, engine)),
             What::Loads => pairs(&FORCE_COLUMNS, &force_row(scene, engine)),
             What::Profile { axis, through } => {
                 let rows = profile_rows(scene, engine, *axis, *through);

@@ -8,30 +8,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::hashed::Hashed;
-
-/// A column of a table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Column {
-    /// Its name.
-    pub name: &'static str,
-    /// Its unit; empty for a bare number.
-    pub unit: &'static str,
-}
-
-impl Column {
-    /// A column of that name and unit.
-    pub const fn new(name: &'static str, unit: &'static str) -> Self {
-        Column { name, unit }
-    }
-
-    /// Name and unit, as the first line of a table has them.
-    pub fn title(&self) -> String {
-        match self.unit {
-            "" => self.name.to_owned(),
-            unit => format!("{} ({unit})", self.name),
-        }
-    }
-}
+use crate::scene::columns::Column;
 
 /// One value of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,15 +9,10 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use thiserror::Error;
 
-use super::lock::{self, Lock, Refused};
-use super::{atomic, names};
+use super::atomic;
+use super::lock::{Lock, Refused};
 use crate::scene::Scene;
-
-/// Name of the file that tells a run from others of the same scene.
-pub const ID: &str = "run.id";
-
-/// Name of the copy of the scene.
-pub const SCENE: &str = "scene.toml";
+use crate::scene::names::{self, ID, LOCK, SCENE};
 
 /// A folder that cannot be used.
 #[derive(Debug, Error)]
@@ -78,7 +73,7 @@ impl RunFolder {
         // What a run that was killed at once has left is nothing; a folder of other things is not to get
         // a lock.
         if !is_unused(path)? {
-            return Err(match path.join(lock::NAME).exists().then(|| Lock::take(path)) {
+            return Err(match path.join(LOCK).exists().then(|| Lock::take(path)) {
                 Some(Err(Refused::Held(holder))) => held(path, holder),
                 _ => FolderError::NotEmpty { path: path.display().to_string() },
             });
@@ -197,7 +192,7 @@ fn first_free(parent: &Path, name: &str) -> Result<PathBuf, FolderError> {
 fn is_unused(path: &Path) -> Result<bool, FolderError> {
     for entry in fs::read_dir(path).map_err(|error| make_error(path, error))? {
         let name = entry.map_err(|error| make_error(path, error))?.file_name();
-        if name != lock::NAME && name != ID {
+        if name != LOCK && name != ID {
             return Ok(false);
         }
     }
@@ -208,7 +203,7 @@ fn take(path: &Path) -> Result<Lock, FolderError> {
     Lock::take(path).map_err(|refused| match refused {
         Refused::Held(holder) => held(path, holder),
         Refused::Error(error) => {
-            FolderError::File { path: path.join(lock::NAME).display().to_string(), error }
+            FolderError::File { path: path.join(LOCK).display().to_string(), error }
         }
     })
 }

@@ -4,23 +4,8 @@ use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::system::{GrainState, GrainSystem};
 use psmrt_reference::lattice::Vec3;
 
-use super::csv::Column;
 use crate::engine::Coupled;
 use crate::scene::Scene;
-
-/// The columns of a record of kind `grain_means`, after time and step.
-pub const COLUMNS: [Column; 10] = [
-    Column::new("x", "m"),
-    Column::new("y", "m"),
-    Column::new("z", "m"),
-    Column::new("velocity_x", "m/s"),
-    Column::new("velocity_y", "m/s"),
-    Column::new("velocity_z", "m/s"),
-    Column::new("max_speed", "m/s"),
-    Column::new("kinetic_energy", "J"),
-    Column::new("contacts", ""),
-    Column::new("largest_overlap", ""),
-];
 
 /// Means over the free grains; zeros if there are none.
 pub fn row(scene: &Scene, engine: &Coupled) -> [f64; 10] {

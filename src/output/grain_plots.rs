@@ -5,7 +5,7 @@ use std::path::Path;
 
 use psmrt_report::{Axis, Figure, Series};
 
-use super::grain_means;
+use crate::scene::columns;
 
 /// Up to so many grains get a curve each.
 const EACH: usize = 4;
@@ -147,7 +147,7 @@ pub fn means(title: &str, rows: &[Vec<f64>]) -> Option<Figure> {
         return None;
     }
     let over_time = |name: &str, factor: f64| -> Vec<(f64, f64)> {
-        let column = grain_means::COLUMNS.iter().position(|column| column.name == name);
+        let column = columns::GRAIN_MEAN_COLUMNS.iter().position(|column| column.name == name);
         let column = 2 + column.unwrap_or(0);
         rows.iter().map(|row| (row[0], factor * row[column])).collect()
     };

@@ -9,8 +9,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
-/// Name of the file in the folder.
-pub const NAME: &str = "run.lock";
+use crate::scene::names::LOCK;
 
 /// More of the file is not read: a line of our own is shorter.
 const LONGEST: u64 = 200;
@@ -36,7 +35,7 @@ pub enum Refused {
 impl Lock {
     /// Takes the lock of `folder`.
     pub fn take(folder: &Path) -> Result<Self, Refused> {
-        let path = folder.join(NAME);
+        let path = folder.join(LOCK);
         let mut options = OpenOptions::new();
         options.read(true).write(true).create(true).truncate(false);
         let mut file = options.open(&path).map_err(Refused::Error)?;

@@ -9,7 +9,6 @@ pub mod grain_means;
 pub mod grain_plots;
 pub mod hashed;
 pub mod lock;
-pub mod names;
 pub mod npy;
 pub mod plot;
 pub mod records;

@@ -2,8 +2,8 @@
 
 use psmrt_report::{Axis, Figure, Series};
 
-use super::records::BOX_COLUMNS;
 use crate::exact::{Comparison, PlanePoiseuille};
+use crate::scene::columns::BOX_COLUMNS;
 
 /// The profile of a run over the exact one, with what is left below.
 pub fn profile(title: &str, exact: &PlanePoiseuille, comparison: &Comparison) -> Figure {

@@ -6,71 +6,13 @@ use std::path::{Path, PathBuf};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Load, Shape};
 
-use super::csv::{Column, Mark, TableFile, Value};
-use super::{between, grain_means, names, snapshots};
+use super::csv::{Mark, TableFile, Value};
+use super::{between, grain_means, snapshots};
 use crate::engine::{Block, CellState, Coupled};
-use crate::scene::{Record, Scene, What};
-
-/// The columns of a record of kind `box`, after time and step.
-pub const BOX_COLUMNS: [Column; 5] = [
-    Column::new("density", "kg/m3"),
-    Column::new("superficial_velocity_x", "m/s"),
-    Column::new("superficial_velocity_y", "m/s"),
-    Column::new("superficial_velocity_z", "m/s"),
-    Column::new("max_speed", "m/s"),
-];
-
-/// The columns of a record of kind `profile`, after time and step.
-const PROFILE_COLUMNS: [Column; 8] = [
-    Column::new("position", "m"),
-    Column::new("pressure", "Pa"),
-    Column::new("velocity_x", "m/s"),
-    Column::new("velocity_y", "m/s"),
-    Column::new("velocity_z", "m/s"),
-    Column::new("x", "m"),
-    Column::new("y", "m"),
-    Column::new("z", "m"),
-];
-
-/// The columns of a record of kind `loads`, after time and step.
-const LOAD_COLUMNS: [Column; 20] = [
-    Column::new("grain", ""),
-    Column::new("x", "m"),
-    Column::new("y", "m"),
-    Column::new("z", "m"),
-    Column::new("diameter", "m"),
-    Column::new("velocity_x", "m/s"),
-    Column::new("velocity_y", "m/s"),
-    Column::new("velocity_z", "m/s"),
-    Column::new("spin_x", "rad/s"),
-    Column::new("spin_y", "rad/s"),
-    Column::new("spin_z", "rad/s"),
-    FORCE_COLUMNS[0],
-    FORCE_COLUMNS[1],
-    FORCE_COLUMNS[2],
-    Column::new("torque_x", "N m"),
-    Column::new("torque_y", "N m"),
-    Column::new("torque_z", "N m"),
-    // What the body force lacks in the cells of the grain: the buoyancy in the pressure gradient that it
-    // stands for.
-    Column::new("displaced_force_x", "N"),
-    Column::new("displaced_force_y", "N"),
-    Column::new("displaced_force_z", "N"),
-];
-
-/// The columns of a record of loads that can be summed over the grains and become steady.
-pub const FORCE_COLUMNS: [Column; 3] =
-    [Column::new("force_x", "N"), Column::new("force_y", "N"), Column::new("force_z", "N")];
-
-/// The records that are tables: kind and columns, after time and step.
-pub fn tables() -> [(&'static str, &'static [Column]); 4] {
-    [
-        ("box", &BOX_COLUMNS),
-        ("profile", &PROFILE_COLUMNS),
-        ("loads", &LOAD_COLUMNS),
-        ("grain_means", &grain_means::COLUMNS),
-    ]
-}
+use crate::scene::columns::{
+    BOX_COLUMNS, Column, GRAIN_MEAN_COLUMNS, LOAD_COLUMNS, PROFILE_COLUMNS,
+};
+use crate::scene::{Record, Scene, What, names};
 
 /// Takes one record.
 #[derive(Debug)]
@@ -183,7 +125,7 @@ pub fn columns(record: &Record) -> Option<Vec<Column>> {
         What::Box => &BOX_COLUMNS,
         What::Profile { .. } => &PROFILE_COLUMNS,
         What::Loads => &LOAD_COLUMNS,
-        What::GrainMeans => &grain_means::COLUMNS,
+        What::GrainMeans => &GRAIN_MEAN_COLUMNS,
         What::Fields { .. } | What::Slice { .. } | What::Grains => return None,
     };
     let first = [Column::new("time", "s"), Column::new("step", "")];
@@ -216,7 +158,7 @@ fn flux_at_start(scene: &Scene, engine: &Coupled) -> Vec3 {
     (0..domain.cells()[2]).map(of_plane).sum::<Vec3>() / domain.cell_count() as f64
 }
 
-/// The values of [`FORCE_COLUMNS`], summed over all grains.
+/// The values of [`crate::scene::columns::FORCE_COLUMNS`], summed over all grains.
 pub fn force_row(scene: &Scene, engine: &Coupled) -> [f64; 3] {
     summed(scene, &engine.loads())
 }

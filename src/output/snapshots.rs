@@ -7,9 +7,10 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::solids::Load;
 
 use super::vtk::Array;
-use super::{atomic, grain_means, names, npy, vtk};
+use super::{atomic, grain_means, npy, vtk};
 use crate::engine::{Block, CellState, Coupled};
 use crate::scene::format_run::FieldFormat;
+use crate::scene::names;
 use crate::scene::{OutputInterval, Record, Scene, What};
 
 /// Writes what `record` wants for now into `folder/<its name>/`, and its list of times.

@@ -6,8 +6,7 @@
 //! swing that dies down. The same is asked of sixteenths of the elapsed time, in which a slow approach shows
 //! sooner behind a fast one; the larger answer counts.
 
-use serde::{Deserialize, Serialize};
-
+use crate::checkpoint::SteadyWatch;
 use crate::engine::Coupled;
 use crate::output::records::{Recorder, watched_row};
 use crate::scene::{OutputInterval, Scene, Steady};
@@ -141,14 +140,14 @@ pub(super) struct Watch {
 
 impl Watch {
     /// From the start, or from where a checkpoint was made.
-    pub(super) fn begin(scene: &Scene, saved: Option<&Saved>) -> Option<Self> {
+    pub(super) fn begin(scene: &Scene, saved: Option<&SteadyWatch>) -> Option<Self> {
         let steady = scene.stop.steady.clone()?;
         let interval = match scene.records[steady.record].interval {
             OutputInterval::Every(interval) => interval,
             OutputInterval::AtEnd => 1,
         };
         let least_rows = steps_of_sound(scene).div_ceil(interval);
-        let (history, since) = saved.map_or_else(Default::default, Saved::unpack);
+        let (history, since) = saved.map_or_else(Default::default, unpacked);
         let left = history.left();
         Some(Watch { steady, least_rows, history, since, left })
     }
@@ -186,10 +185,10 @@ impl Watch {
         self.left
     }
 
-    pub(super) fn save(&self) -> Saved {
+    pub(super) fn save(&self) -> SteadyWatch {
         let History { rows, stride, samples, pending } = &self.history;
         let bits = |s: &Sample| [s.value, s.least, s.most].map(f64::to_bits);
-        Saved {
+        SteadyWatch {
             rows: *rows,
             stride: *stride,
             samples: samples.iter().map(bits).collect(),
@@ -212,28 +211,17 @@ fn steps_of_sound(scene: &Scene) -> u64 {
     (4.0 * longest as f64 * 3.0_f64.sqrt()).ceil() as u64
 }
 
-/// A watch in a checkpoint; values as their bits.
-#[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
-pub struct Saved {
-    rows: u64,
-    stride: u64,
-    samples: Vec<[u64; 3]>,
-    pending: Option<[u64; 3]>,
-    since: Option<u64>,
-}
-
-impl Saved {
-    fn unpack(&self) -> (History, Option<u64>) {
-        let sample = |bits: &[u64; 3]| {
-            let [value, least, most] = bits.map(f64::from_bits);
-            Sample { value, least, most }
-        };
-        let history = History {
-            rows: self.rows,
-            stride: self.stride.max(1),
-            samples: self.samples.iter().map(sample).collect(),
-            pending: self.pending.as_ref().map(sample),
-        };
-        (history, self.since)
-    }
+/// The history that a checkpoint has, and the row since which the value is within the tolerance.
+fn unpacked(saved: &SteadyWatch) -> (History, Option<u64>) {
+    let sample = |bits: &[u64; 3]| {
+        let [value, least, most] = bits.map(f64::from_bits);
+        Sample { value, least, most }
+    };
+    let history = History {
+        rows: saved.rows,
+        stride: saved.stride.max(1),
+        samples: saved.samples.iter().map(sample).collect(),
+        pending: saved.pending.as_ref().map(sample),
+    };
+    (history, saved.since)
 }

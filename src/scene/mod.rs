@@ -14,11 +14,13 @@
 
 mod changes;
 pub mod check;
+pub mod columns;
 pub mod format;
 pub mod format_free;
 pub mod format_grains;
 pub mod format_run;
 mod hints;
+pub mod names;
 mod path;
 pub mod schema;
 mod shape;

@@ -257,7 +257,7 @@ fn the_reference_of_scene_files_is_up_to_date() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/scene/REFERENCE.md");
     let written = fs::read_to_string(path).unwrap();
     assert!(
-        written == psmrt::scene::schema::reference(),
+        written == psmrt::command::scene_reference::reference(),
         "run: cargo run -- schema --markdown > src/scene/REFERENCE.md"
     );
 }

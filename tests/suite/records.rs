@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
-use psmrt::engine::{Coupled, open, starting_from};
 use psmrt::advice::estimate::{disk, warnings};
+use psmrt::engine::{Coupled, open, starting_from};
 use psmrt::output::records::{box_row, profile_rows};
 use psmrt::output::slice;
 use psmrt::scene::format_run::Quantity;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use crate::cli::{Folder, psmrt, stderr};
 use crate::common::Budget;
-use psmrt::engine::open;
 use psmrt::advice::estimate::{numbers, warnings};
+use psmrt::engine::open;
 use psmrt::scene::Scene;
 use psmrt_reference::grains::grain::sphere_volume;
 use psmrt_reference::grains::hold::deepest_of;

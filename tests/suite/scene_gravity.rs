@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::common::Budget;
-use psmrt::engine::open;
 use psmrt::advice::estimate::warnings;
+use psmrt::engine::open;
 use psmrt::output::records::load_rows;
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::Gravity;

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::common::Budget;
-use psmrt::engine::{Coupled, open};
 use psmrt::advice::estimate::{Warning, warnings};
+use psmrt::engine::{Coupled, open};
 use psmrt::scene::Scene;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::CS2;

@@ -16,10 +16,10 @@ use crate::advice::estimate::grains::free;
 use crate::advice::estimate::si_velocity;
 use crate::advice::estimate::spheres::{solid_fraction, spheres};
 use crate::advice::estimate::warnings::stability::mapped;
-use crate::scene::Scene;
 use crate::advice::stability::limits::Measured;
-use crate::table::{Table, TableError};
 use crate::advice::tradeoff::evidence::SolidMethod;
+use crate::scene::Scene;
+use crate::table::{Table, TableError};
 
 const ARRAYS: &str = include_str!("../../../golden/sphere_arrays/literature.csv");
 const SHAFTS: &str = include_str!("../../../golden/stokes_settling/literature.csv");

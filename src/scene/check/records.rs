@@ -8,8 +8,8 @@ use psmrt_reference::setup::Setup;
 use super::Trouble;
 use super::grains::Attachment;
 use super::numbers::{absent, count, finite, needed, steps};
-use crate::output::names::{self, Made, Maker};
 use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
+use crate::scene::names::{self, Made, Maker};
 use crate::units::Units;
 
 /// A record of a run.

@@ -3,9 +3,7 @@
 use super::Trouble;
 use super::numbers::{count, steps};
 use super::records::{OutputInterval, Record, What};
-use crate::output::csv::Column;
-use crate::output::grain_means;
-use crate::output::records::{BOX_COLUMNS, FORCE_COLUMNS};
+use crate::scene::columns::{BOX_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS};
 use crate::scene::format_run::{SteadySection, StopSection};
 use crate::units::Units;
 
@@ -23,7 +21,7 @@ pub struct Stop {
 pub struct Steady {
     /// Number of the record, of kind [`What::Box`], [`What::GrainMeans`] or [`What::Loads`].
     pub record: usize,
-    /// Number of the column in [`BOX_COLUMNS`], [`grain_means::COLUMNS`] or, summed over all grains,
+    /// Number of the column in [`BOX_COLUMNS`], [`GRAIN_MEAN_COLUMNS`] or, summed over all grains,
     /// [`FORCE_COLUMNS`].
     pub column: usize,
     /// Largest distance from the final value, relative.
@@ -117,7 +115,7 @@ impl Steady {
 fn columns(record: &Record) -> Option<&'static [Column]> {
     match record.what {
         What::Box => Some(&BOX_COLUMNS),
-        What::GrainMeans => Some(&grain_means::COLUMNS),
+        What::GrainMeans => Some(&GRAIN_MEAN_COLUMNS),
         What::Loads => Some(&FORCE_COLUMNS),
         _ => None,
     }

@@ -6,8 +6,8 @@ use crate::advice::estimate::Warning;
 use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
 use crate::advice::plan::predict::{Outside, Parameters, Predicted, percent, predict};
-use crate::scene::{EngineKind, Scene};
 use crate::advice::tradeoff::model::Models;
+use crate::scene::{EngineKind, Scene};
 use psmrt_reference::collision::Preset;
 
 /// A predicted error above this is warned of. Laws of the drag of beds differ by as much from each other, so

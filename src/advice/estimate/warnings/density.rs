@@ -5,8 +5,8 @@ use psmrt_reference::coupling::InternalFluid;
 use super::warning;
 use crate::advice::estimate::Warning;
 use crate::advice::plan::facts::lightest;
-use crate::scene::Scene;
 use crate::advice::stability::limits;
+use crate::scene::Scene;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let Some((ratio, inside)) = lightest(scene) else { return Vec::new() };

@@ -1,8 +1,8 @@
 //! Warnings of prescribed spheres whose way ends at a face or in another sphere.
 
 use super::warning;
-use crate::courses::{Lookout, leavings};
 use crate::advice::estimate::Warning;
+use crate::courses::{Lookout, leavings};
 use crate::scene::Scene;
 
 /// Places of spheres that are looked at, at most: a second's work. A run looks ahead as it goes.

@@ -8,8 +8,8 @@ use super::warning;
 use crate::advice::estimate::bed::{DENSE, bed};
 use crate::advice::estimate::spheres::solid_fraction;
 use crate::advice::estimate::{Warning, diameters, si_velocity};
-use crate::scene::Scene;
 use crate::advice::stability::limits::Measured;
+use crate::scene::Scene;
 
 /// The flow of the maps that a scene is compared with, in words too, and how fast it is: cells per step, and where
 /// that comes from. `None` if no velocity is known.

@@ -14,16 +14,16 @@ use crate::tradeoff::measure::Runner;
 use crate::tradeoff::record::Record;
 use crate::tradeoff::sweep::runs;
 use crate::tradeoff::{cost, effects, figures, tables};
-use psmrt::command::say::{say, tell};
-use psmrt::command::write;
-use psmrt::kernel::Gpu;
-use psmrt::output::atomic;
-use psmrt::table::Table;
 use psmrt::advice::tradeoff::evidence::{grain_points, wall_points};
 use psmrt::advice::tradeoff::model::Models;
 use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
 use psmrt::advice::tradeoff::row::Row;
 use psmrt::advice::tradeoff::trial::trials;
+use psmrt::command::say::{say, tell};
+use psmrt::command::write;
+use psmrt::kernel::Gpu;
+use psmrt::output::atomic;
+use psmrt::table::Table;
 
 /// What `cargo validate tradeoff` is asked for.
 #[derive(Args, Clone, Debug)]

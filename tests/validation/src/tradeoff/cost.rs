@@ -8,11 +8,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::cases::{Bench, CaseError};
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
 use psmrt::engine::{self, Coupled};
 use psmrt::kernel::Gpu;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
 
 /// Rounds, and how long one scene runs in each: short enough to fall between what else the machine does.
 const ROUNDS: usize = 80;

@@ -1,8 +1,8 @@
 //! What one parameter alone does: runs beside the run that differs in nothing else and has the default.
 
-use psmrt::table::Table;
 use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt::advice::tradeoff::row::Row;
+use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 
 /// A parameter, turned.

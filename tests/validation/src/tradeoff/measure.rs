@@ -9,13 +9,13 @@ use psmrt_reference::lattice::viscosity;
 use super::setting::{Literature, Setting};
 use super::storage::rounded;
 use crate::cases::{Bench, CaseError, Finished};
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
+use psmrt::advice::tradeoff::row::Row;
 use psmrt::exact::Comparison;
 use psmrt::kernel::Gpu;
 use psmrt::output::records::profile_rows;
 use psmrt::run::{End, RunError};
 use psmrt::scene::check::records::middle;
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
-use psmrt::advice::tradeoff::row::Row;
 use std::sync::Arc;
 
 /// Bytes that an engine keeps per cell for populations: two copies of 19 of 8 or 4 bytes.

@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::cases::CaseError;
-use psmrt::table::{Table, TableError};
 use psmrt::advice::tradeoff::parameters::Parameters;
 use psmrt::advice::tradeoff::row::Row;
+use psmrt::table::{Table, TableError};
 
 /// A file of rows that new ones are added to.
 #[derive(Debug)]

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use psmrt_reference::lattice::viscosity;
 
 use crate::cases::CaseError;
+use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
 
 /// Viscosity of all scenes, m2/s.
 const SI_VISCOSITY: f64 = 1e-6;

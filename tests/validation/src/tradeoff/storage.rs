@@ -10,11 +10,11 @@ use psmrt_reference::guard::{Guard, Sight};
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
 
+use psmrt::advice::tradeoff::parameters::Storage;
 use psmrt::engine::{
     Block, BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine,
 };
 use psmrt::scene::Scene;
-use psmrt::advice::tradeoff::parameters::Storage;
 
 /// The oracle with populations rounded after every step.
 #[derive(Debug)]

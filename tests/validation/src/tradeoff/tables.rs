@@ -1,12 +1,12 @@
 //! What is made of the rows of a sweep: fits, fronts, and predictions beside measurements, as tables.
 
 use super::figures::{on_front, placed, problems};
-use psmrt::table::Table;
 use psmrt::advice::tradeoff::evidence::SolidMethod;
 use psmrt::advice::tradeoff::model::Models;
 use psmrt::advice::tradeoff::parameters::COLUMNS;
 use psmrt::advice::tradeoff::row::Row;
 use psmrt::advice::tradeoff::trial::Trial;
+use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 
 /// The models with their parameters, standard errors and bands.

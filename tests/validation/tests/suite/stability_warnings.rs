@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use psmrt::advice::estimate::warnings;
-use psmrt::scene::Scene;
 use psmrt::advice::stability::limits::Measured;
+use psmrt::scene::Scene;
 use psmrt_reference::collision::Preset;
 use psmrt_reference::partial_saturation::Weighting;
 

@@ -2,7 +2,6 @@
 
 use crate::common::{Budget, golden_rows};
 use proptest::prelude::*;
-use psmrt::table::Table;
 use psmrt::advice::tradeoff::evidence::{
     GrainPoint, SolidMethod, committed_sweep, grain_points, wall_points,
 };
@@ -11,6 +10,7 @@ use psmrt::advice::tradeoff::model_eps::EpsModel;
 use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt::advice::tradeoff::row::Row;
 use psmrt::advice::tradeoff::trial::{committed_results, score, trials};
+use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 use psmrt_report::render_svg;
 use psmrt_validation::cases::{CASES, Golden};

@@ -6,12 +6,12 @@ use psmrt_report::{Figure, PowerLaw};
 use super::{Bench, Case, CaseError, Claim, Golden};
 use crate::tradeoff::effects::effects;
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
-use psmrt::table::Table;
 use psmrt::advice::tradeoff::evidence::{SolidMethod, grain_points, wall_points};
 use psmrt::advice::tradeoff::model::Models;
 use psmrt::advice::tradeoff::parameters::{Flow, Storage};
 use psmrt::advice::tradeoff::row::Row;
 use psmrt::advice::tradeoff::trial::{Trial, score, trials};
+use psmrt::table::Table;
 
 /// The trade-off study.
 pub const CASE: Case = Case {

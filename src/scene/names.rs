@@ -1,8 +1,18 @@
 //! The names of all that a run makes in its folder. They are known before it starts, and differ.
 
-use super::{folder, lock};
-use crate::checkpoint;
-use crate::scene::{Attachment, Record, What};
+use super::{Attachment, Record, What};
+
+/// Lock of a run's folder.
+pub const LOCK: &str = "run.lock";
+
+/// Which run a folder belongs to.
+pub const ID: &str = "run.id";
+
+/// Copy of the scene.
+pub const SCENE: &str = "scene.toml";
+
+/// Folder of the checkpoints.
+pub const CHECKPOINTS: &str = "checkpoints";
 
 /// What `psmrt run` says about itself.
 pub const FACTS: &str = "run.json";
@@ -39,9 +49,9 @@ pub struct Made {
 pub fn all(records: &[Record], lists: &[Attachment], compares: bool) -> Vec<Made> {
     let file = |by: Maker, name: String| Made { name, is_folder: false, by };
     let folder = |by: Maker, name: &str| Made { name: name.to_owned(), is_folder: true, by };
-    let run = [lock::NAME, folder::ID, folder::SCENE, FACTS];
+    let run = [LOCK, ID, SCENE, FACTS];
     let mut made: Vec<Made> = run.map(|name| file(Maker::Run, name.to_owned())).into();
-    made.push(folder(Maker::Run, checkpoint::FOLDER));
+    made.push(folder(Maker::Run, CHECKPOINTS));
     made.extend(lists.iter().map(|list| file(Maker::List(list.section), list.file_name())));
     if compares {
         made.extend(COMPARISON.map(|name| file(Maker::Comparison, name.to_owned())));

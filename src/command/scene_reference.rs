@@ -1,0 +1,94 @@
+//! The reference of all keys of a scene, as Markdown: `psmrt schema --markdown` prints it.
+
+use psmrt_reference::collision::Preset;
+use psmrt_reference::partial_saturation::Weighting;
+use serde_json::Value;
+
+use crate::advice::stability::limits::Measured;
+use crate::scene::columns::tables;
+use crate::scene::schema::{Kind, description, schema};
+
+/// The reference: all sections and keys as Markdown, in the order of the schema.
+pub fn reference() -> String {
+    let root = schema();
+    let mut text = String::from(REFERENCE_HEAD);
+    let mut sections = vec![(String::new(), root)];
+    let mut next = 0;
+    while let Some((path, node)) = sections.get(next).cloned() {
+        next += 1;
+        let title = if path.is_empty() { "The top level".to_owned() } else { format!("`{path}`") };
+        text.push_str(&format!("\n## {title}\n\n{}\n\n", description(node)));
+        text.push_str("| key | value | needed | meaning |\n|---|---|---|---|\n");
+        let needed: Vec<&str> = node["required"]
+            .as_array()
+            .map_or_else(Vec::new, |names| names.iter().filter_map(Value::as_str).collect());
+        for (name, key) in node["properties"].as_object().into_iter().flatten() {
+            let kind = Kind::of(root, key);
+            if let Kind::Section(inner) | Kind::Sections(inner) = kind {
+                let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
+                // Faces are alike: one table is enough.
+                if !sections.iter().any(|(_, known)| std::ptr::eq(*known, inner)) {
+                    sections.push((path, inner));
+                }
+            }
+            let value = kind.words();
+            let needed = if needed.contains(&name.as_str()) { "yes" } else { "" };
+            let meaning = description(key).replace('|', "\\|");
+            text.push_str(&format!("| `{name}` | {value} | {needed} | {meaning} |\n"));
+        }
+    }
+    text.push_str(RECORDS_HEAD);
+    for (kind, columns) in tables() {
+        let titles: Vec<String> = columns.iter().map(|column| column.title()).collect();
+        text.push_str(&format!("- `{kind}`: {}\n", titles.join(", ")));
+    }
+    text.push_str(LIMITS_HEAD);
+    for tau in [0.501, 0.51, 0.55, 0.6, 1.0] {
+        let mut cells = vec![format!("{tau}")];
+        let nt = Measured::Bed(Weighting::NobleTorczynski);
+        for (measured, model) in [Measured::Fluid, nt]
+            .into_iter()
+            .flat_map(|m| [(m, Preset::Srt), (m, Preset::DHumieres)])
+        {
+            let limit = measured.limit_of(model, tau);
+            cells.push(limit.map_or_else(String::new, |limit| format!("{}", limit.lives)));
+        }
+        text.push_str(&format!("| {} |\n", cells.join(" | ")));
+    }
+    text
+}
+
+const LIMITS_HEAD: &str = "
+## Up to what velocity a flow is stable
+
+The largest velocity, in cells per time step, at which runs of the maps in `golden/stability` stayed stable: that of
+a shear layer, and the superficial velocity through an ordered bed of porosity 0.4. `psmrt check` warns of scenes
+beyond. Accuracy ends earlier: errors of compressibility are negligible below 0.05 only.
+
+| tau | shear layer, SRT | shear layer, MRT | bed, SRT | bed, MRT |
+|---|---|---|---|---|
+";
+
+const RECORDS_HEAD: &str = "
+## Columns of the records
+
+All tables begin with `time (s),step`. The superficial velocity is the mean mass flux, grains
+included, over the density of the fluid. `spin` is the angular velocity. Force and torque are those of the fluid
+(hydrodynamic: viscous stress and pressure) on the grain in the last step; of a grain whose centre lies on a mirror
+plane, on the half that is computed. Under a body force G (per volume, [body_force] or from [gravity]) they leave out
+the buoyancy in the pressure gradient that G stands for: in a cell in which grains have the weight `B`, G acts on the
+share `1 - B` only. `displaced_force` is the rest, `G ΣB` over the cells of the grain at its present position (0
+without a body force). Force and displaced force of all grains add up to the driving force of the whole domain, G V,
+less the rate of change of the fluid's momentum and the force on walls; in a steady periodic domain the sum is G V to
+round-off. Positions of moving grains are not wrapped at periodic faces. Pressure is that above the fluid
+at its reference density.
+`grain_means` are means and sums over the free grains; contacts are those between grains and with faces,
+and the overlap is divided by the mean diameter of the two.
+
+";
+
+const REFERENCE_HEAD: &str = "# Scene files, key by key
+
+Made by `psmrt schema --markdown` from the comments in the code; do not edit. TOML, SI units. What is
+absent costs nothing. `psmrt check` says what a scene will be. Scenes to start from: `golden/`.
+";

@@ -1,0 +1,100 @@
+//! The columns of the tables that records are: what a scene may name, and what is written.
+
+/// A column of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// Its unit; empty for a bare number.
+    pub unit: &'static str,
+}
+
+impl Column {
+    /// A column of that name and unit.
+    pub const fn new(name: &'static str, unit: &'static str) -> Self {
+        Column { name, unit }
+    }
+
+    /// Name and unit, as the first line of a table has them.
+    pub fn title(&self) -> String {
+        match self.unit {
+            "" => self.name.to_owned(),
+            unit => format!("{} ({unit})", self.name),
+        }
+    }
+}
+
+/// The columns of a record of kind `box`, after time and step.
+pub const BOX_COLUMNS: [Column; 5] = [
+    Column::new("density", "kg/m3"),
+    Column::new("superficial_velocity_x", "m/s"),
+    Column::new("superficial_velocity_y", "m/s"),
+    Column::new("superficial_velocity_z", "m/s"),
+    Column::new("max_speed", "m/s"),
+];
+
+/// The columns of a record of kind `profile`, after time and step.
+pub const PROFILE_COLUMNS: [Column; 8] = [
+    Column::new("position", "m"),
+    Column::new("pressure", "Pa"),
+    Column::new("velocity_x", "m/s"),
+    Column::new("velocity_y", "m/s"),
+    Column::new("velocity_z", "m/s"),
+    Column::new("x", "m"),
+    Column::new("y", "m"),
+    Column::new("z", "m"),
+];
+
+/// The columns of a record of kind `loads`, after time and step.
+pub const LOAD_COLUMNS: [Column; 20] = [
+    Column::new("grain", ""),
+    Column::new("x", "m"),
+    Column::new("y", "m"),
+    Column::new("z", "m"),
+    Column::new("diameter", "m"),
+    Column::new("velocity_x", "m/s"),
+    Column::new("velocity_y", "m/s"),
+    Column::new("velocity_z", "m/s"),
+    Column::new("spin_x", "rad/s"),
+    Column::new("spin_y", "rad/s"),
+    Column::new("spin_z", "rad/s"),
+    FORCE_COLUMNS[0],
+    FORCE_COLUMNS[1],
+    FORCE_COLUMNS[2],
+    Column::new("torque_x", "N m"),
+    Column::new("torque_y", "N m"),
+    Column::new("torque_z", "N m"),
+    // What the body force lacks in the cells of the grain: the buoyancy in the pressure gradient that it
+    // stands for.
+    Column::new("displaced_force_x", "N"),
+    Column::new("displaced_force_y", "N"),
+    Column::new("displaced_force_z", "N"),
+];
+
+/// The columns of a record of loads that can be summed over the grains and become steady.
+pub const FORCE_COLUMNS: [Column; 3] =
+    [Column::new("force_x", "N"), Column::new("force_y", "N"), Column::new("force_z", "N")];
+
+/// The columns of a record of kind `grain_means`, after time and step.
+pub const GRAIN_MEAN_COLUMNS: [Column; 10] = [
+    Column::new("x", "m"),
+    Column::new("y", "m"),
+    Column::new("z", "m"),
+    Column::new("velocity_x", "m/s"),
+    Column::new("velocity_y", "m/s"),
+    Column::new("velocity_z", "m/s"),
+    Column::new("max_speed", "m/s"),
+    Column::new("kinetic_energy", "J"),
+    Column::new("contacts", ""),
+    Column::new("largest_overlap", ""),
+];
+
+/// The records that are tables: kind and columns, after time and step.
+pub fn tables() -> [(&'static str, &'static [Column]); 4] {
+    [
+        ("box", &BOX_COLUMNS),
+        ("profile", &PROFILE_COLUMNS),
+        ("loads", &LOAD_COLUMNS),
+        ("grain_means", &GRAIN_MEAN_COLUMNS),
+    ]
+}
