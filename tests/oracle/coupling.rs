@@ -5,13 +5,16 @@ use crate::common;
 use common::Budget;
 use common::collisions::dhumieres;
 use common::random::Random;
-use psmrt_reference::coupling::{CoupledSolver, CouplingSettings, Gravity, InternalFluid};
+use psmrt_reference::coupling::{
+    CoupledSolver, CouplingError, CouplingSettings, Gravity, InternalFluid,
+};
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::law::ContactLaw;
 use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
 use psmrt_reference::lattice::{Vec3, viscosity};
 use psmrt_reference::setup::{Setup, SolidPhase};
+use psmrt_reference::solids::Solid;
 use std::f64::consts::PI;
 
 fn fluid(cells: [usize; 3], faces: Faces, tau: f64) -> Setup {
@@ -341,4 +344,65 @@ fn buoyancy_by_a_body_force_on_the_fluid_is_too_small_and_less_so_on_finer_grids
     // (0.42, 0.20 and 0.12; 0.08 at 16 cells.) First order leaves 1/2 and 2/3; a tenth more is allowed.
     assert!(lacking[0] > 0.1 && lacking[1] < 0.55 * lacking[0] && lacking[2] < 0.73 * lacking[1]);
     assert!(lacking[2] > 0.0);
+}
+
+/// One sphere of radius 2 and density 1.5 in a periodic domain of 12³ cells, all moving at `velocity`.
+fn moving_as_one(velocity: Vec3) -> CoupledSolver {
+    let sphere = Grain::sphere(Vec3::new(6.0, 6.0, 6.0), 2.0, 1.5).moving(velocity);
+    CoupledSolver::new(
+        fluid([12; 3], Faces::PERIODIC, 0.7),
+        |_| (1.0, velocity),
+        GrainSetup { sides: PeriodicBox::all([12.0; 3]), ..GrainSetup::new(law()) },
+        vec![sphere],
+        Vec::new(),
+        CouplingSettings::default(),
+    )
+    .unwrap()
+}
+
+#[test]
+fn momentum_of_what_moves_as_one_is_its_mass_times_its_velocity() {
+    let velocity = Vec3::new(0.01, -0.02, 0.03);
+    let solver = moving_as_one(velocity);
+    let volume = sphere_volume(2.0);
+    let plain = (1728.0 + 1.5 * volume) * velocity;
+    let conserved = (1728.0 + 0.5 * volume) * velocity;
+    // Sums of 1,728 cells of 19 populations, each rounded.
+    let allowed = 1e-11;
+    assert!(
+        (solver.plain_momentum() - plain).norm() < allowed,
+        "fluid and grain: {:?}, not {plain:?}",
+        solver.plain_momentum()
+    );
+    assert!(
+        (solver.conserved_momentum() - conserved).norm() < allowed,
+        "less the fluid that the grain displaces: {:?}, not {conserved:?}",
+        solver.conserved_momentum()
+    );
+}
+
+#[test]
+fn a_broken_fluid_is_found_when_asked_and_a_sound_one_is_not() {
+    let sound = moving_as_one(Vec3::new(0.05, 0.0, 0.0)).check_now();
+    assert!(sound.is_ok(), "a stream of 0.05 is sound: {sound:?}");
+    let broken = moving_as_one(Vec3::new(0.9, 0.0, 0.0)).check_now();
+    assert!(broken.is_err(), "0.9 cells per step is faster than sound");
+}
+
+#[test]
+fn grains_are_the_only_solids_of_a_coupled_fluid() {
+    let with = |setup: Setup| {
+        let sphere = Grain::sphere(Vec3::new(6.0, 6.0, 6.0), 2.0, 1.5);
+        let grains = GrainSetup { sides: PeriodicBox::all([12.0; 3]), ..GrainSetup::new(law()) };
+        let (planes, settings) = (Vec::new(), CouplingSettings::default());
+        CoupledSolver::new(setup, at_rest, grains, vec![sphere], planes, settings).map(|_| ())
+    };
+    let empty = fluid([12; 3], Faces::PERIODIC, 0.7);
+    assert_eq!(with(empty.clone()), Ok(()), "a solid phase without solids takes the grains");
+    let solid = Solid::fixed_sphere(Vec3::new(3.0, 3.0, 3.0), 1.0);
+    let own = SolidPhase { solids: vec![solid], ..SolidPhase::default() };
+    let given = Setup { solid_phase: Some(own), ..empty.clone() };
+    assert_eq!(with(given), Err(CouplingError::SolidsGiven), "a solid besides the grains");
+    let none = Setup { solid_phase: None, ..empty };
+    assert_eq!(with(none), Err(CouplingError::SolidsGiven), "no solid phase");
 }
