@@ -6,15 +6,15 @@ use common::Budget;
 use common::collisions::dhumieres;
 use common::random::Random;
 use psmrt_reference::coupling::{
-    CoupledSolver, CouplingError, CouplingSettings, Gravity, InternalFluid,
+    CoupledSolver, CouplingError, CouplingSettings, FreeGrains, Gravity, InternalFluid,
 };
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::law::ContactLaw;
-use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
+use psmrt_reference::grains::setup::{GrainError, GrainSetup, PeriodicBox};
 use psmrt_reference::lattice::{Vec3, viscosity};
 use psmrt_reference::setup::{Setup, SolidPhase};
-use psmrt_reference::solids::Solid;
+use psmrt_reference::solids::{Load, Solid};
 use std::f64::consts::PI;
 
 fn fluid(cells: [usize; 3], faces: Faces, tau: f64) -> Setup {
@@ -405,4 +405,44 @@ fn grains_are_the_only_solids_of_a_coupled_fluid() {
     assert_eq!(with(given), Err(CouplingError::SolidsGiven), "a solid besides the grains");
     let none = Setup { solid_phase: None, ..empty };
     assert_eq!(with(none), Err(CouplingError::SolidsGiven), "no solid phase");
+}
+
+/// Grains in an empty domain of 32³ cells, moved by one step under a load on each.
+fn after_one_step(grains: Vec<Grain>, forces: &[Vec3]) -> Result<u32, GrainError> {
+    // Two spheres of density 1 and radius 2 that overlap by 0.5 part at √(2 k/m) 0.5 = 1.2 cells per step.
+    let law = ContactLaw::from_stiffness_and_restitution(100.0, 1.0, 0.5 * sphere_volume(2.0));
+    let domain = Domain::new([32; 3], Faces::PERIODIC).unwrap();
+    let setup = GrainSetup { sides: PeriodicBox::all([32.0; 3]), ..GrainSetup::new(law.unwrap()) };
+    let settings = CouplingSettings::default();
+    let mut grains = FreeGrains::new(&domain, setup, grains, Vec::new(), settings).unwrap();
+    let loads: Vec<Load> =
+        forces.iter().map(|&force| Load { force, torque: Vec3::zeros() }).collect();
+    grains.step(&loads)
+}
+
+#[test]
+fn a_grain_is_thrown_if_contacts_and_not_the_fluid_make_it_too_fast() {
+    let sphere = |x: f64| Grain::sphere(Vec3::new(x, 8.0, 8.0), 2.0, 1.0);
+    let mass = sphere(0.0).mass;
+    let along = |x: f64| Vec3::new(x, 0.0, 0.0);
+    let overlapping = vec![sphere(8.0), sphere(11.5)];
+
+    let thrown = after_one_step(overlapping.clone(), &[Vec3::zeros(); 2]);
+    let Err(GrainError::Thrown { grain: 0, speed, gained, limit: 0.5 }) = thrown else {
+        panic!("two that part at 0.6 each are thrown by their contact: {thrown:?}");
+    };
+    // Half a period of the contact is 1.3 steps: in one step they have all but parted.
+    assert!((0.5..=0.6125).contains(&speed), "the speed of parting is at most 1.225/2: {speed}");
+    assert_eq!(speed, gained, "without a load all of the speed is from the contact");
+
+    let helped = after_one_step(overlapping, &[along(-0.05 * mass), along(0.05 * mass)]);
+    assert!(
+        matches!(helped, Err(GrainError::Thrown { .. })),
+        "a load of 0.05 along the push does not excuse it: {helped:?}"
+    );
+
+    let pushed = after_one_step(vec![sphere(8.0)], &[along(0.6 * mass)]);
+    assert!(pushed.is_ok(), "what the fluid makes fast is not thrown by a contact: {pushed:?}");
+    let coasting = after_one_step(vec![sphere(8.0).moving(along(0.6))], &[Vec3::zeros()]);
+    assert!(coasting.is_ok(), "what was fast before is not thrown: {coasting:?}");
 }
