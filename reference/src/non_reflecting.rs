@@ -60,7 +60,7 @@ impl SlowMeans {
     /// # Panics
     /// If there are not as many as cells at such faces: a mistake in the calling code.
     pub fn going_on_from(domain: &Domain, means: Vec<f64>) -> Self {
-        let cells: usize = faces(domain).map(|(face, _)| face_cells(domain, face).count()).sum();
+        let cells: usize = faces(domain).map(|(face, _)| cell_count(domain, face)).sum();
         assert_eq!(means.len(), cells, "one slow mean per cell at a non-reflecting face");
         SlowMeans { means }
     }
@@ -80,7 +80,7 @@ impl SlowMeans {
         post: &Populations,
     ) -> f64 {
         let before = faces(domain).take_while(|&(known, _)| known != face);
-        let first: usize = before.map(|(face, _)| face_cells(domain, face).count()).sum();
+        let first: usize = before.map(|(face, _)| cell_count(domain, face)).sum();
         let [(along, n), (across, _)] = plane(domain, face);
         let m = self.means[first + x[along] + n * x[across]];
         // ρ_w = ρ_0 + ρ/c_s (u_n - m)
@@ -112,6 +112,11 @@ fn faces(domain: &Domain) -> impl Iterator<Item = (Side, f64)> + '_ {
 fn plane(domain: &Domain, (axis, _): Side) -> [(usize, usize); 2] {
     let [along, across] = [[1, 2], [0, 2], [0, 1]][axis];
     [(along, domain.cells()[along]), (across, domain.cells()[across])]
+}
+
+/// How many cells lie at a face.
+fn cell_count(domain: &Domain, face: Side) -> usize {
+    plane(domain, face).iter().map(|&(_, cells)| cells).product()
 }
 
 /// The cells at a face, each with the face.

@@ -118,11 +118,13 @@ impl Coupled {
 
     /// Moves the solids after a step, free or as prescribed.
     fn move_solids(&mut self) -> Result<(), EngineStop> {
-        let solids = if self.grains.is_some() { self.moved_grains()? } else { self.towed() };
+        let solids =
+            if self.grains.is_some() { self.moved_grains()? } else { self.moved_as_prescribed() };
         Ok(self.fluid.place_solids(solids)?)
     }
 
-    fn towed(&self) -> Vec<Solid> {
+    /// The solids a step later, those that move as prescribed.
+    fn moved_as_prescribed(&self) -> Vec<Solid> {
         let mut solids = self.solids();
         for solid in solids.iter_mut().filter(|solid| solid.moves()) {
             solid.centre += solid.velocity;
