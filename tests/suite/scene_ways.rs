@@ -157,3 +157,37 @@ fn overlap(
     let distance = (0..3).map(|axis| along(axis).powi(2)).sum::<f64>().sqrt();
     0.5 * (one.1 + two.1) - 0.01 * one.1.min(two.1) - distance
 }
+
+#[test]
+fn engine_moves_a_prescribed_sphere_by_its_velocity_each_step() {
+    // dx = 1e-4 m and tau = 0.8 (nu = 0.1) with 1e-6 m2/s make steps of 1e-3 s: 0.01 m/s are 0.1 cells per step.
+    let text = r#"
+[domain]
+cells = [16, 12, 12]
+dx = 1e-4
+[fluid]
+density = 1000.0
+kinematic_viscosity = 1e-6
+[time]
+tau = 0.8
+[[grains]]
+kind = "sphere"
+centre = [5e-4, 6e-4, 6e-4]
+diameter = 4e-4
+motion = "prescribed"
+velocity = [0.01, 0.0, -0.005]
+[stop]
+steps = 10
+"#;
+    let path = std::path::Path::new(".");
+    let scene =
+        psmrt::scene::Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), path, &[]).unwrap();
+    let mut engine = psmrt::engine::open(&scene, None, false).unwrap();
+    engine.step(10).unwrap();
+    let centre = engine.solids()[0].centre;
+    let expected = psmrt_reference::lattice::Vec3::new(6.0, 6.0, 5.5);
+    assert!(
+        (centre - expected).norm() < 1e-12,
+        "after 10 steps of (0.1, 0, -0.05) from (5, 6, 6) it is at {centre:?}"
+    );
+}
