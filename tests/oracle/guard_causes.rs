@@ -5,12 +5,14 @@ use crate::common;
 use common::Budget;
 use common::collisions::dhumieres;
 use psmrt_reference::collision::Collision;
-use psmrt_reference::coupling::{CoupledSolver, CoupledStop, CouplingSettings, Gravity};
+use psmrt_reference::coupling::{
+    CoupledSolver, CoupledStop, CouplingSettings, FreeGrains, Gravity,
+};
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::law::ContactLaw;
 use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
-use psmrt_reference::guard::{Cause, Stopped};
+use psmrt_reference::guard::{Cause, Failure, Stopped};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
@@ -124,5 +126,62 @@ fn endless_fall_in_a_box_periodic_along_gravity_is_named_and_no_smaller_step_is_
         };
         assert!(axis == "z" && speed < 0.0, "{stopped}");
         check_words(&stopped, &["periodic along gravity", "Balance"], &["Use a smaller time step"]);
+    }
+}
+
+/// What grains that are as given say of a stop of the fluid before step 1000, of which it knows no cause, in a
+/// periodic box of 16 cells.
+fn blamed(grains: &[Grain], gravity: Option<Gravity>) -> Cause {
+    let domain = Domain::new([16; 3], Faces::PERIODIC).unwrap();
+    let law = ContactLaw::from_duration_and_restitution(10.0, 0.5, 1.0).unwrap();
+    let setup = GrainSetup { sides: PeriodicBox::all([16.0; 3]), ..GrainSetup::new(law) };
+    let settings = CouplingSettings { gravity, ..CouplingSettings::default() };
+    let grains = FreeGrains::new(&domain, setup, grains.to_vec(), Vec::new(), settings).unwrap();
+    let failure = Failure::NotFinite;
+    grains.explain(Stopped { step: 1000, cell: [0; 3], failure, cause: Cause::Unknown }).cause
+}
+
+#[test]
+fn light_grain_that_is_slow_fixed_or_prescribed_is_not_blamed_for_what_a_heavy_fast_one_does() {
+    let light = Grain::sphere(Vec3::new(4.0, 4.0, 4.0), 2.4, 0.3);
+    let fast = Vec3::new(0.3, 0.0, 0.0);
+    let heavy = Grain::sphere(Vec3::new(11.0, 11.0, 11.0), 2.4, 3.0).moving(fast);
+    let turning = |omega: f64| light.spinning(Vec3::new(0.0, 0.0, omega));
+    // Its surface turns at 2.4 * 0.03 = 0.07 cells a step; slower than 0.1 breaks nothing.
+    let slow = turning(0.03).moving(Vec3::new(0.0, 0.05, 0.0));
+    let prescribed = Grain { held: true, ..light.moving(fast) };
+    for (name, grain) in [("slow", slow), ("prescribed", prescribed), ("fixed", light)] {
+        let grain = Grain { held: grain.held || name == "fixed", ..grain };
+        let cause = blamed(&[heavy, grain], None);
+        assert_eq!(cause, Cause::Unknown, "beside a heavy fast grain, a light one that is {name}");
+    }
+    // Either motion is enough: 0.3 cells a step along x, or 2.4 * 0.1 = 0.24 of its surface.
+    for (name, grain) in [("moves fast", light.moving(fast)), ("turns fast", turning(0.1))] {
+        let cause = blamed(&[heavy, grain], None);
+        let Cause::LightGrain { solid: 1, ratio } = cause else {
+            panic!("a light grain that {name} beside a heavy fast one: {cause:?}")
+        };
+        // Why: a handful of roundings.
+        assert!((ratio - 0.3).abs() < 1e-12, "a density of 0.3 times the fluid's, not {ratio}");
+    }
+}
+
+#[test]
+fn no_fall_is_endless_where_one_of_the_grains_is_fixed() {
+    let gravity = Gravity::Reduced { acceleration: Vec3::new(0.0, 0.0, -5e-3) };
+    let at = |x: f64, z: f64| Grain::sphere(Vec3::new(x, x, z), 2.4, 5.0);
+    // With an excess mass of 4 V each (V = 57.9) beside 4096 of the fluid, all fall freely at 0.51 (two grains) or
+    // 0.73 cells a step (three) after 1000 steps. Two at 0.7 and one at rest are 0.64 of that: still a free fall.
+    let falling = Vec3::new(0.0, 0.0, -0.7);
+    let [first, second] = [at(4.0, 4.0), at(11.0, 4.0)].map(|grain| grain.moving(falling));
+    let third = at(4.0, 11.0);
+    let cause = blamed(&[first, second], Some(gravity));
+    assert!(matches!(cause, Cause::EndlessFall { axis: "z", .. }), "all are free: {cause:?}");
+    for (name, resting, due) in
+        [("free", third, false), ("fixed", Grain { held: true, ..third }, true)]
+    {
+        let cause = blamed(&[first, second, resting], Some(gravity));
+        let is_endless = matches!(cause, Cause::EndlessFall { .. });
+        assert_eq!(!is_endless, due, "two fall, one at rest is {name}: {cause:?}");
     }
 }
