@@ -9,6 +9,7 @@
 //! | `grains.rs` | both for free grains, and what their warnings rest on |
 //! | `spheres.rs` | the spheres of a scene, and how much of each the domain holds |
 //! | `bed.rs` | where they lie densest |
+//! | `velocity.rs` | how fast it will be |
 //! | `speed.rs` | how long it takes, measured on its first steps |
 //! | `warnings.rs`, `warnings/` | what looks risky, one topic a file |
 
@@ -20,15 +21,17 @@ mod models;
 mod numbers;
 pub mod speed;
 pub(crate) mod spheres;
+pub(crate) mod velocity;
 pub(crate) mod warnings;
 
-use psmrt_reference::domain::Face;
 use psmrt_reference::solids::Shape;
 use serde::Serialize;
 
 pub use self::models::models;
 pub use self::numbers::numbers;
 pub use self::speed::calibrate;
+pub(crate) use self::velocity::si_velocity;
+pub(crate) use self::warnings::accuracy::subject;
 pub use self::warnings::warnings;
 use crate::scene::Scene;
 
@@ -56,33 +59,6 @@ pub struct Warning {
 
 fn number(name: &'static str, value: f64, unit: &'static str, note: impl Into<String>) -> Number {
     Number { name, value, unit, note: note.into() }
-}
-
-/// The largest velocity that the scene names, m/s, and where it comes from.
-pub(crate) fn si_velocity(scene: &Scene) -> Option<(f64, &'static str)> {
-    if let Some(si_velocity) = scene.si_reference_velocity {
-        return Some((si_velocity, "time.reference_velocity"));
-    }
-    if let Some(exact) = &scene.exact {
-        return Some((exact.si_top_velocity().abs(), "the exact solution"));
-    }
-    let faces = scene.setup.domain.faces();
-    let faces = (0..3).flat_map(|axis| faces.axis(axis)).map(|face| match face {
-        Face::Wall { velocity } | Face::VelocityInlet { velocity } => velocity.norm(),
-        _ => 0.0,
-    });
-    let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
-    let solids = solids.map(|solid| match solid.shape {
-        Shape::Sphere { radius } => solid.velocity.norm() + radius * solid.angular_velocity.norm(),
-        Shape::Cells { .. } => solid.velocity.norm(),
-    });
-    let speeds = faces.chain(solids).chain([scene.initial_velocity.norm()]);
-    let most = speeds.fold(0.0, f64::max);
-    let settling = grains::stokes_velocity(scene);
-    if settling > most {
-        return Some((settling * scene.units.si_velocity(), "Stokes' law for the fastest grain"));
-    }
-    (most > 0.0).then(|| (most * scene.units.si_velocity(), "the fastest face, grain or start"))
 }
 
 /// Diameters in cells, smallest and largest, if there are grains.

@@ -6,7 +6,7 @@ use std::time::Duration;
 use serde_json::json;
 
 use super::say::say;
-use super::{CommandError, engine};
+use super::{CommandError, engine, kind_of};
 use crate::advice::estimate::{calibrate, disk, models, numbers, warnings};
 use crate::scene::Scene;
 
@@ -28,6 +28,8 @@ const CALIBRATION: Duration = Duration::from_millis(500);
 pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
     let mut engine = engine(&scene, &request.scene, false)?;
+    // What was left open is what a run would use.
+    let scene = Scene { engine: kind_of(&engine), ..scene };
     let (numbers, models, mut warnings) = (numbers(&scene), models(&scene), warnings(&scene));
     // A run writes to a folder below this one, unless it is told otherwise.
     warnings.extend(disk::warnings(&scene, Path::new(".")));

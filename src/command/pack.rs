@@ -17,6 +17,7 @@ use super::say::say;
 use super::{CommandError, write};
 use crate::output::{atomic, grain_list};
 use crate::packing::{Amount, Sizes};
+use crate::scene::check::numbers::COEFFICIENTS;
 
 /// What `psmrt pack` is asked for; lengths in m.
 #[derive(Args, Clone, Debug)]
@@ -134,8 +135,11 @@ fn radii(request: &PackRequest) -> Result<Vec<f64>, CommandError> {
     request.size.iter().try_for_each(|&length| positive("size", length))?;
     request.diameter.iter().try_for_each(|&diameter| positive("diameter", diameter))?;
     request.density.iter().try_for_each(|&density| positive("density", density))?;
-    if !(request.friction >= 0.0 && request.friction.is_finite()) {
-        return Err(wrong(format!("--friction {}: it must be 0 or more", request.friction)));
+    if !COEFFICIENTS.contains(&request.friction) {
+        let (low, high) = (COEFFICIENTS.start(), COEFFICIENTS.end());
+        let problem =
+            format!("--friction {}: it must lie between {low} and {high}", request.friction);
+        return Err(wrong(format!("{problem}; 0 packs dense, 0.5 is usual for sand")));
     }
     let axes = if request.bed { 2..=3 } else { 3..=3 };
     if !axes.contains(&request.size.len()) {

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::check::duration;
 use super::say::say;
+use crate::advice::estimate::subject;
 use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::PlanOption;
 use crate::advice::plan::predict::{Outside, percent};
@@ -45,7 +46,7 @@ pub(super) fn print(
     }
     let across = match facts.limit {
         Limit::Grains { .. } => "cells across a grain",
-        Limit::Plates { .. } | Limit::Duct { .. } => "cells between walls",
+        Limit::Plates { .. } | Limit::Shear { .. } | Limit::Duct { .. } => "cells between walls",
     };
     say(&format!(
         "  {:<21}{across:>21}{:>7}  {:<16}{:<11}{:>10}  {:<20}{:>9}",
@@ -77,13 +78,7 @@ pub(super) fn print(
         "\nthe plan: dx = {:.4e} m, {nx} x {ny} x {nz} cells, tau = {}",
         best.si_dx, best.tau
     ));
-    say(match facts.limit {
-        Limit::Grains { .. } => {
-            "error: of the settling velocity, or of the flow that a given force drives; times are upper limits"
-        }
-        Limit::Plates { .. } => "error: of the profile (relative L2); times are upper limits",
-        Limit::Duct { .. } => "error: of the mean velocity; times are upper limits",
-    });
+    say(&format!("error: of {}; times are upper limits", subject(scene, &facts.limit)));
     say("\nthe evidence");
     for line in evidence {
         say(&format!("  {line}"));

@@ -25,13 +25,13 @@ pub struct ContactSection {
     /// Instead of `damping`: coefficient of restitution of such an impact in vacuum, 0.01 to 1; 0.5 where neither is
     /// given.
     pub restitution: Option<f64>,
-    /// Coulomb's coefficient of friction, 0 for smooth grains; 0.5 where absent.
+    /// Coulomb's coefficient of friction, 0 (smooth grains) to 10; 0.5 where absent.
     pub friction: Option<f64>,
     /// Ratio of tangential to normal stiffness, and of the dampings, 0.001 to 10; 2/7 where absent, with which a
     /// sphere's tangential and normal oscillations have the same period.
     pub tangential_ratio: Option<f64>,
-    /// Coefficient of rolling resistance: the tangent of the slope on which a grain just begins to roll; grains roll
-    /// freely where absent.
+    /// Coefficient of rolling resistance, 0 to 10: the tangent of the slope on which a grain just begins to roll; grains
+    /// roll freely where absent.
     pub rolling_resistance: Option<f64>,
     /// Sub-steps of the grains in a time step; as many as the contacts need (25 in the shortest) where
     /// absent. Fewer than 10 in the shortest contact are refused.

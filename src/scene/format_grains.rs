@@ -39,7 +39,7 @@ pub struct GrainsSection {
     pub seed: Option<i64>,
     /// With `random`: least distance between surfaces, m; 0 where absent.
     pub gap: Option<f64>,
-    /// With `bed`: friction while it settles; 0.5 where absent; 0 gives the densest packing.
+    /// With `bed`: friction while it settles, 0 (the densest packing) to 10; 0.5 where absent.
     pub packing_friction: Option<f64>,
     /// `fixed` (the default), `prescribed` (moves with the given `velocity` and angular velocity `spin`) or `free`
     /// (moves under hydrodynamic force, contacts and gravity). A prescribed sphere re-enters at periodic faces and may

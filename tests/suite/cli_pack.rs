@@ -139,7 +139,8 @@ fn packings_that_cannot_be_made_are_refused_and_leave_nothing() {
         ("--size 1e-3,1e-3,1e-3 --diameter 2e-4 --largest-diameter 1e-4 --count 9", "at least"),
         ("--size 1e-3,1e-3,1e-3 --diameter 2e-3 --count 1", "porosity"),
         ("--bed --size 1e-3,1e-3 --diameter 1e-4 --porosity 0.4", "finds its own"),
-        ("--bed --size 1e-3,1e-3 --diameter 1e-4 --count 9 --friction=-1", "--friction"),
+        ("--bed --size 1e-3,1e-3 --diameter 1e-4 --count 9 --friction=-1", "between 0 and 10"),
+        ("--bed --size 1e-3,1e-3 --diameter 1e-4 --count 9 --friction 1e300", "between 0 and 10"),
         ("--bed --size 1e-3,1e-3 --diameter 2e-3 --count 9", "box length"),
     ] {
         let arguments: Vec<&str> = ["pack"].into_iter().chain(options.split(' ')).collect();

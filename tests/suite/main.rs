@@ -13,6 +13,7 @@ mod conformance;
 #[path = "../edges/mod.rs"]
 mod edges;
 
+mod agreement;
 mod bad_scenes;
 mod bits;
 mod cli_folder;

@@ -14,7 +14,7 @@ use psmrt::advice::plan::write::text;
 use psmrt::advice::tradeoff::evidence::{SolidMethod, committed_sweep};
 use psmrt::advice::tradeoff::evidence_low::low_points;
 use psmrt::advice::tradeoff::model::Models;
-use psmrt::engine::open;
+use psmrt::engine::{Block, open};
 use psmrt::scene::Scene;
 use psmrt::table::Table;
 use psmrt_reference::collision::{Collision, Preset};
@@ -132,6 +132,45 @@ fn walls_that_no_rule_covers_are_not_planned() {
     let half = "y_low.kind = \"free_slip\"\ny_high.kind = \"wall\"\n".to_owned();
     let half = why(half + &force("[1e-3, 0.0, 0.0]")).unwrap();
     assert_eq!(half.limit, Limit::Plates { cells: 16.0 });
+}
+
+/// Couette flow between plates 8 cells apart, with a number of the scene's rates.
+fn couette(model: &str, speed: f64) -> Scene {
+    // dx/dt = 1 m/s at tau = 0.8: the speed is in cells per step too.
+    scene(&format!(
+        "[domain]\ncells = [1, 8, 1]\ndx = 1e-5\n[fluid]\ndensity = 1000.0\nkinematic_viscosity = 1e-6\n\
+         [time]\ndt = 1e-5\n[collision]\nmodel = \"{model}\"\n[stop]\nsteps = 1500\n[faces]\n\
+         y_low.kind = \"wall\"\ny_high = {{ kind = \"wall\", velocity = [{speed:e}, 0.0, 0.0] }}\n"
+    ))
+}
+
+#[test]
+fn couette_flow_is_told_the_error_of_its_own_profile_and_errs_by_no_more() {
+    let mut budget = Budget::oracle(24_000);
+    for (model, speed) in [("srt", 0.1), ("mrt", 0.1)] {
+        let scene = couette(model, speed);
+        let said = numbers(&scene).into_iter().find(|number| number.name == "predicted error");
+        let said = said.unwrap();
+        assert!(said.note.contains("of the profile") && !said.note.contains("force"), "{said:?}");
+        let facts = Facts::of(&scene).unwrap().unwrap();
+        let collision = Preset::of(&scene.setup.collision).unwrap();
+        let option = as_it_is(&facts, models(), collision, &oracle()).unwrap();
+        // Steady: the slowest part falls by e in h²/(π² ν) = 65 steps.
+        let mut engine = open(&scene, None, false).unwrap();
+        engine.step(1500).unwrap();
+        budget.spend(1500 * 8);
+        let cells = engine.cells(Block::plane(&scene.setup.domain, 0));
+        let exact = |i: usize| speed * (i as f64 + 0.5) / 8.0;
+        let off: f64 =
+            cells.iter().enumerate().map(|(i, c)| (c.velocity.x - exact(i)).powi(2)).sum();
+        let whole: f64 = (0..8).map(|i| exact(i).powi(2)).sum();
+        let measured = (off / whole).sqrt();
+        println!("{model}: {measured:e}, predicted {} {:?}", option.error, option.band);
+        assert!(measured <= option.band[1], "{model}: off by {measured:e}, told {:?}", option.band);
+    }
+    let rest = couette("srt", 0.0);
+    let why = Facts::of(&rest).unwrap().unwrap_err();
+    assert!(why.contains("neither a force nor a moving wall"), "{why}");
 }
 
 /// Spheres of 8 cells that touch in a cubic array, as scene text, shifted along z.

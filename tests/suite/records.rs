@@ -242,9 +242,9 @@ steps = 100
 "#;
     let mut budget = Budget::oracle(2_310_000);
     for (kind, more, endings, least) in [
-        ("box", "every_steps = 1", &["r.csv"][..], 0.6),
-        ("profile", "axis = \"x\"\nevery_steps = 5", &["r.csv"], 0.6),
-        ("loads", "every_steps = 1", &["r.csv"], 0.3),
+        ("box", "every_steps = 1", &["r.csv", "r.svg"][..], 0.5),
+        ("profile", "axis = \"x\"\nevery_steps = 5", &["r.csv", "r.svg"], 0.5),
+        ("loads", "every_steps = 1", &["r.csv", "r.svg"], 0.3),
         ("fields", "formats = [\"vti\", \"npy\"]\nevery_steps = 50", &[".vti", ".npy"], 0.9),
         ("grains", "every_steps = 5", &[".vtp"], 0.3),
         ("slice", "axis = \"z\"\nevery_steps = 20", &["r_000000000100.svg", "0.svg"], 0.3),

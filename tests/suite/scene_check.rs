@@ -4,6 +4,7 @@ use std::path::Path;
 
 use psmrt::advice::estimate::{models, numbers, warnings};
 use psmrt::scene::Scene;
+use psmrt::table::Table;
 
 /// A grain of quartz in water in a closed box, 8 cells per diameter.
 const SCENE: &str = r#"
@@ -66,9 +67,8 @@ fn derived_numbers_of_grains_follow_from_the_scene_in_si_units() {
         ("stiffness", stiffness),
         ("damping", 2.0 * zeta * (stiffness * mass).sqrt()),
         ("Stokes velocity", stokes),
-        ("velocity", stokes),
-        ("Mach number", 3.0_f64.sqrt() * stokes * dt / 6.25e-6),
-        ("Reynolds number", stokes * d / 1e-6),
+        ("Mach number", 3.0_f64.sqrt() * value("velocity") * dt / 6.25e-6),
+        ("Reynolds number", value("velocity") * d / 1e-6),
         ("overlap", weight / stiffness / d),
         // The weight of one grain on the floor of 32 x 32 cells: p d/k.
         ("overlap in a bed", weight / (32.0 * 6.25e-6_f64).powi(2) * d / stiffness),
@@ -76,6 +76,15 @@ fn derived_numbers_of_grains_follow_from_the_scene_in_si_units() {
         let found = value(name);
         assert!((found / wanted - 1.0).abs() < 1e-9, "{name}: {found} instead of {wanted}");
     }
+    // In a square shaft of four diameters the drag is K = 1.8227 times Stokes' (golden/stokes_settling/literature.csv),
+    // and inertia adds F3 Re/2; F3 = 0.0673 + 0.212 c + 0.0232/(1 - c)^5 = 0.0918 at a solid fraction of 0.0041.
+    let (re, fall) = (value("Reynolds number"), value("velocity"));
+    let shaft = Table::read(Path::new("golden/stokes_settling/literature.csv")).unwrap();
+    let shaft = shaft.with(&[("section", "square"), ("a_over_halfwidth", "0.25")]).unwrap();
+    let drag = shaft.number("K1_translating_in_still_fluid").unwrap() + 0.0918 * re / 2.0;
+    let force = 3.0 * std::f64::consts::PI * 1e-3 * d * fall * drag;
+    // F3 is rounded to three digits, and is a part in a thousand here.
+    assert!((force / weight - 1.0).abs() < 1e-5, "drag {force:e} N of the weight {weight:e} N");
     // 25 in the shortest contact. A lone grain meets walls only, with twice the reduced mass and the
     // same springs: its contacts last 10 √2 = 14.1 steps, and 25/14.1 makes 2.
     assert_eq!(value("sub-steps"), 2.0);

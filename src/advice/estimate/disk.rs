@@ -34,10 +34,26 @@ const GRAIN_STATE: f64 = 1000.0;
 /// Checkpoints that may be there at a time: two are kept, one is being written.
 const CHECKPOINTS: f64 = 3.0;
 
+/// A picture of curves: its frame; then all its curves at a time, or all marks and lines of a profile in a cell.
+const CHART: f64 = 30e3;
+const CHART_ROW: f64 = 8.0 * 24.0;
+const CHART_CELL: f64 = 3.0 * 200.0;
+
+/// What a run says about itself, and its locks.
+const FACTS: f64 = 8e3;
+
 /// Bytes that the run writes at most, if no limit but its steps ends it.
 pub fn bytes(scene: &Scene) -> f64 {
     let records: f64 = scene.records.iter().map(|record| of_record(scene, record)).sum();
-    records + checkpoints(scene)
+    let lists: usize = scene.attachments.iter().map(|list| list.bytes.len()).sum();
+    let copies = (scene.text.len() + lists) as f64;
+    // A table and a picture; a point for each cell and for the exact curve.
+    let cells = scene.setup.domain.cells().into_iter().max().unwrap_or(0) as f64;
+    let compared = match scene.exact {
+        Some(_) => 4.0 * TEXT_NUMBER * cells + CHART + CHART_CELL * cells,
+        None => 0.0,
+    };
+    records + checkpoints(scene) + compared + copies + FACTS
 }
 
 fn of_record(scene: &Scene, record: &Record) -> f64 {
@@ -45,7 +61,13 @@ fn of_record(scene: &Scene, record: &Record) -> f64 {
         OutputInterval::Every(interval) => (scene.stop.steps / interval) as f64 + 1.0,
         OutputInterval::AtEnd => 1.0,
     };
-    times * at_a_time(scene, &record.what, columns(record).map_or(0, |columns| columns.len()))
+    let columns = columns(record).map_or(0, |columns| columns.len());
+    let picture = match record.what {
+        What::Profile { axis, .. } => CHART + CHART_CELL * scene.setup.domain.cells()[axis] as f64,
+        _ if columns > 0 => CHART + CHART_ROW * times,
+        _ => 0.0,
+    };
+    HEADS + times * at_a_time(scene, &record.what, columns) + picture
 }
 
 /// Bytes of a record each time.

@@ -27,14 +27,15 @@ pub(crate) fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
     part.grains.iter().filter(|grain| !grain.held)
 }
 
-/// The largest velocity at which a free grain would settle by Stokes' law, cells per time step; 0
-/// without gravity. At Reynolds numbers above 1 grains settle more slowly.
-pub(super) fn stokes_velocity(scene: &Scene) -> f64 {
-    let Some(part) = &scene.free else { return 0.0 };
+/// The largest velocity at which a free grain would settle by Stokes' law alone in the fluid, cells per time step, and
+/// that grain's radius; `None` without gravity.
+pub(super) fn stokes_velocity(scene: &Scene) -> Option<(f64, f64)> {
+    let part = scene.free.as_ref()?;
     let nu = viscosity(scene.setup.collision.tau());
     // (m_s - m_f) g = 6 π ν ρ a v
     let velocity = |grain: &Grain| buoyant_weight(part, grain) / (6.0 * PI * nu * grain.radius);
-    free(part).map(velocity).fold(0.0, f64::max)
+    let all = free(part).map(|grain| (velocity(grain), grain.radius));
+    all.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|(velocity, _)| *velocity > 0.0)
 }
 
 /// What weight and impacts do to the contacts.
@@ -53,7 +54,7 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         .fold((f64::INFINITY, 0.0_f64), |(low, high), ratio| (low.min(ratio), high.max(ratio)));
     let note = if high > low { format!("the heaviest has {high:.3}") } else { String::new() };
     let pair = 0.5 * free(part).map(|grain| grain.mass).fold(f64::INFINITY, f64::min);
-    let (duration, settle) = (law.duration(pair), stokes_velocity(scene));
+    let duration = law.duration(pair);
     let count = free(part).count();
     let substeps = part.substeps().unwrap_or(0);
     let chosen = match part.setup.substeps {
@@ -75,10 +76,12 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         number("damping", law.damping * units.si_damping(), "N s/m", restitution),
         number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")),
     ];
-    if settle > 0.0 {
+    if let Some((settle, _)) = stokes_velocity(scene) {
         let Overlaps { in_bed, one_on_one, in_impact } =
             burden(scene, part).overlaps(law.stiffness);
-        let note = format!("{settle:.2e} cells per time step; of the fastest grain, alone");
+        let note = format!(
+            "{settle:.2e} cells per time step; of the fastest grain, alone and without inertia"
+        );
         numbers.push(number("Stokes velocity", settle * units.si_velocity(), "m/s", note));
         let note = "of a diameter: the heaviest grain at rest on the smallest";
         numbers.push(number("overlap", one_on_one, "", note));

@@ -1,9 +1,9 @@
 //! The derived numbers of a scene.
 
 use psmrt_reference::domain::Face;
-use psmrt_reference::solids::Shape;
 
 use super::bed::bed;
+use super::spheres::solid_fraction;
 use super::warnings::accuracy::{outlook, subject};
 use super::{Number, diameters, grains, memory, number, si_velocity};
 use crate::advice::plan::predict::Outside;
@@ -29,8 +29,9 @@ fn si_length(scene: &Scene) -> (f64, &'static str) {
 
 /// The error that `psmrt plan` predicts of the scene as it is.
 fn predicted_error(scene: &Scene) -> Option<Number> {
-    let subject = subject(scene);
-    let (found, note) = match outlook(scene)?.found {
+    let outlook = outlook(scene)?;
+    let subject = subject(scene, &outlook.facts.limit);
+    let (found, note) = match outlook.found {
         Ok(found) => (found, format!("of {subject}")),
         Err(Outside { why, nearest, .. }) => {
             (nearest?, format!("of {subject}, at the nearest point of the evidence: {why}"))
@@ -70,15 +71,8 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
         numbers.push(number("grains", phase.solids.len() as f64, "", "spheres"));
         let note = if high > low { format!("the largest has {high:.2}") } else { String::new() };
         numbers.push(number("cells per diameter", low, "", note));
-        let volume: f64 = phase
-            .solids
-            .iter()
-            .map(|solid| match solid.shape {
-                Shape::Sphere { radius } => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
-                Shape::Cells { .. } => 0.0,
-            })
-            .sum();
-        numbers.push(number("solid fraction", volume / count as f64, "", "grains over domain"));
+        let note = "grains over domain";
+        numbers.push(number("solid fraction", solid_fraction(scene), "", note));
     }
     if let Some(bed) = bed(scene) {
         let [x, y, z] = bed.reaches;
@@ -98,7 +92,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
     let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
     numbers.push(number("memory", mib, "MiB", format!("{}; engine {engine}", parts.join(", "))));
     let written = super::disk::bytes(scene);
-    let note = "of records and checkpoints, at most";
+    let note = "of records, their pictures and checkpoints, at most";
     numbers.push(number("disk", written / f64::from(1 << 20), "MiB", note));
     let (steps, si_time) = (scene.stop.steps as f64, scene.stop.steps as f64 * units.si_dt);
     numbers.push(number("steps", steps, "", format!("at most; {si_time:.4e} s")));

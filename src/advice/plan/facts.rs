@@ -1,14 +1,11 @@
 //! What a plan must know of a scene: how long its grains are in cells, how crowded they are, how fast the
 //! flow is, and how much there is to compute.
 
-use std::f64::consts::PI;
-
 use psmrt_reference::coupling::InternalFluid;
 use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::lattice::viscosity;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
-use psmrt_reference::solids::Solid;
 
 use super::duct::Duct;
 use crate::advice::estimate::bed::{Bed, bed};
@@ -36,8 +33,13 @@ pub enum Limit {
         /// Where that comes from.
         because: String,
     },
-    /// Two plates that face each other; there are no grains.
+    /// Two plates between which a force drives the flow; there are no grains.
     Plates {
+        /// Cells from wall to wall.
+        cells: f64,
+    },
+    /// Two plates of which one moves along at least, and nothing else drives the flow; there are no grains.
+    Shear {
         /// Cells from wall to wall.
         cells: f64,
     },
@@ -56,9 +58,10 @@ impl Limit {
     /// Cells across the smallest grain, or from wall to wall.
     pub fn cells(&self) -> f64 {
         match *self {
-            Limit::Grains { cells, .. } | Limit::Plates { cells } | Limit::Duct { cells, .. } => {
-                cells
-            }
+            Limit::Grains { cells, .. }
+            | Limit::Plates { cells }
+            | Limit::Shear { cells }
+            | Limit::Duct { cells, .. } => cells,
         }
     }
 }
@@ -82,6 +85,8 @@ pub struct Facts {
     pub tau: f64,
     /// Largest velocity that is known beforehand, m/s.
     pub si_velocity: Option<f64>,
+    /// Acceleration of the body force, m/s2.
+    pub si_acceleration: f64,
     /// The flow of the maps of stability that it is held to, and its velocity there, m/s; `None` if no
     /// velocity is known.
     pub mapped: Option<(Measured, f64)>,
@@ -100,7 +105,6 @@ impl Facts {
         let flat = [0, 1, 2].map(|axis| cells[axis] == 1 && setup.domain.is_periodic(axis));
         let spheres = spheres(scene);
         let nu = viscosity(setup.collision.tau());
-        let mut velocity = si_velocity(scene).map(|(si_velocity, _)| si_velocity);
         let limit = if spheres.is_empty() {
             match walls(scene) {
                 Ok(limit) => limit,
@@ -108,17 +112,8 @@ impl Facts {
             }
         } else {
             let smallest = spheres.iter().map(|s| 2.0 * s.1).fold(f64::INFINITY, f64::min);
-            let (drag, because) = drag(scene, &spheres)?;
-            if let (Some(force), None) = (setup.body_force, velocity) {
-                // U = G V/(n 6π ν a K)
-                let stokes: f64 = spheres.iter().map(|s| s.2 * 6.0 * PI * nu * s.1).sum();
-                let volume = setup.domain.cell_count() as f64;
-                velocity = Some(force.norm() * volume / (stokes * drag) * units.si_velocity());
-            } else if scene.free.is_some() {
-                // Neighbours and walls slow a grain that Stokes' law lets fall alone.
-                velocity = velocity.map(|si_velocity| si_velocity / drag);
-            }
-            Limit::Grains { cells: smallest, drag, because }
+            let Drag { factor, because, .. } = drag(scene)?;
+            Limit::Grains { cells: smallest, drag: factor, because }
         };
         let phase = setup.solid_phase.as_ref().map(|phase| (phase.weighting, phase.operator));
         let solid = match phase.unwrap_or_default() {
@@ -145,7 +140,9 @@ impl Facts {
             si_dx: units.si_dx,
             si_viscosity: nu * units.si_viscosity(),
             tau: setup.collision.tau(),
-            si_velocity: velocity,
+            si_velocity: si_velocity(scene).map(|(si_velocity, _)| si_velocity),
+            si_acceleration: setup.body_force.map_or(0.0, |force| force.norm())
+                * units.si_acceleration(),
             mapped: mapped(scene)
                 .map(|(measured, _, speed, _)| (measured, speed * units.si_velocity())),
             lightest: lightest(scene),
@@ -180,6 +177,11 @@ fn walls(scene: &Scene) -> Result<Limit, String> {
         }
     };
     let gaps = [0, 1, 2].map(gap);
+    let rests = |face: &Face| match face {
+        Face::Wall { velocity } => velocity.norm() == 0.0,
+        _ => true,
+    };
+    let all_rest = faces.iter().flatten().all(rests);
     let across: Vec<f64> = gaps.iter().copied().flatten().collect();
     match across[..] {
         [] => Err(
@@ -187,16 +189,18 @@ fn walls(scene: &Scene) -> Result<Limit, String> {
                    evidence knows"
                 .to_owned(),
         ),
-        [cells] => Ok(Limit::Plates { cells }),
+        [cells] => match (scene.setup.body_force.is_some_and(|force| force.norm() > 0.0), all_rest) {
+            (true, _) => Ok(Limit::Plates { cells }),
+            (false, false) => Ok(Limit::Shear { cells }),
+            (false, true) => Err("neither a force nor a moving wall drives the fluid between its walls: there is no \
+                                  error that the evidence knows"
+                .to_owned()),
+        },
         [a, b] => {
-            let still = |face: &Face| match face {
-                Face::Wall { velocity } => velocity.norm() == 0.0,
-                _ => true,
-            };
             let is_along = scene.setup.body_force.is_some_and(|force| {
                 (0..3).all(|axis| gaps[axis].is_none() == (force[axis] != 0.0))
             });
-            if !is_along || !faces.iter().flatten().all(still) {
+            if !is_along || !all_rest {
                 return Err("it has walls along two axes, and not just a force along the third that drives \
                             the flow of a duct: there is no error that the evidence knows"
                     .to_owned());
@@ -217,9 +221,19 @@ pub(crate) fn lightest(scene: &Scene) -> Option<(f64, InternalFluid)> {
     Some((lightest, part.settings.internal_fluid))
 }
 
-/// Drag over Stokes' drag: that of a face-centred array as crowded, or of a shaft as narrow, whichever is
-/// larger; and what it was taken from.
-fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), TableError> {
+/// Drag over Stokes' drag, at no Reynolds number.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Drag {
+    /// The drag: that of a face-centred array as crowded, or of a shaft as narrow, whichever is larger.
+    pub factor: f64,
+    /// What it was taken from.
+    pub because: String,
+    /// Solid fraction where the grains lie densest.
+    pub fraction: f64,
+}
+
+/// The drag of the grains of a scene.
+pub(crate) fn drag(scene: &Scene) -> Result<Drag, TableError> {
     let domain = &scene.setup.domain;
     let whole = solid_fraction(scene);
     let bed = bed(scene);
@@ -230,7 +244,7 @@ fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), 
         ["solid_fraction_c", "K_computed"],
         fraction,
     )?;
-    let largest = spheres.iter().map(|s| s.1).fold(0.0, f64::max);
+    let largest = spheres(scene).iter().map(|s| s.1).fold(0.0, f64::max);
     // A mirror plane halves the shaft; a wall on one side only counts as one on both.
     let half = |axis: usize| {
         let faces = domain.faces().axis(axis);
@@ -250,7 +264,7 @@ fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), 
         ["a_over_halfwidth", "K1_translating_in_still_fluid"],
         largest / narrowest,
     )?;
-    Ok(if shaft > crowd {
+    let (factor, because) = if shaft > crowd {
         let width = narrowest / largest;
         (shaft, format!("a square shaft {width:.1} diameters wide, like the walls"))
     } else {
@@ -262,7 +276,8 @@ fn drag(scene: &Scene, spheres: &[(&Solid, f64, f64)]) -> Result<(f64, String), 
             None => "the grains".to_owned(),
         };
         (crowd, format!("a regular array of solid fraction {fraction:.3}, like {like}"))
-    })
+    };
+    Ok(Drag { factor, because, fraction })
 }
 
 /// A column of the literature at a value of another: linear in the logarithm between rows, from 1 at

@@ -81,7 +81,11 @@ fn is_slow_enough(facts: &Facts, si_dx: f64, tau: f64, fastest: f64) -> bool {
     let si_unit = facts.si_viscosity / (nu * si_dx);
     let mapped = facts.mapped.map_or(0.0, |(_, si_velocity)| si_velocity / si_unit);
     let velocity = facts.si_velocity.map(|si_velocity| si_velocity / si_unit);
-    mapped <= fastest && velocity.is_none_or(|u| u <= FASTEST && u / nu <= GRID_REYNOLDS)
+    // What the body force adds in a step: a dt²/dx.
+    let gain = facts.si_acceleration * si_dx / (si_unit * si_unit);
+    gain <= FASTEST
+        && mapped <= fastest
+        && velocity.is_none_or(|u| u <= FASTEST && u / nu <= GRID_REYNOLDS)
 }
 
 /// Why there is no option to compute a scene at all.
@@ -143,7 +147,9 @@ fn refinements(facts: &Facts) -> Vec<([usize; 3], f64)> {
     let common = full.iter().copied().fold(0, gcd).max(1);
     let most = match facts.limit {
         Limit::Grains { cells, .. } => 40.0 / cells,
-        Limit::Plates { cells } | Limit::Duct { cells, .. } => WALL_CELLS[1] / cells,
+        Limit::Plates { cells } | Limit::Shear { cells } | Limit::Duct { cells, .. } => {
+            WALL_CELLS[1] / cells
+        }
     };
     (1..)
         .map(|parts: usize| (parts, parts as f64 / common as f64))
@@ -174,7 +180,8 @@ fn option(
     let predicted =
         predict(facts, models, &Parameters { resolution, tau, collision, single, velocity })?;
     let (error, band) = predicted.size();
-    let steps = (facts.si_time / si_dt).ceil();
+    // As many as before where the step is the same, whatever rounding says.
+    let steps = (facts.si_time / si_dt * (1.0 - 1e-12)).ceil();
     let cost = if collision == Preset::Srt { speed.srt } else { speed.mrt };
     let count = cells.iter().map(|&n| n as f64).product::<f64>();
     Ok(PlanOption {

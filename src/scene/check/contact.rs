@@ -9,7 +9,7 @@ use psmrt_reference::grains::motion::Substeps;
 
 use super::Trouble;
 use super::effort::MOST_SUBSTEPS;
-use super::numbers::{absent, positive};
+use super::numbers::{absent, coefficient, positive};
 use crate::scene::format_free::ContactSection;
 use crate::units::Units;
 
@@ -75,6 +75,12 @@ pub(super) fn consistent(section: &ContactSection) -> Result<(), Trouble> {
     one_of(section.damping.is_some(), section.restitution.is_some(), "damping", "restitution")?;
     if section.friction == Some(0.0) {
         absent(&key("tangential_ratio"), section.tangential_ratio.as_ref(), "`friction` above 0")?;
+    }
+    for (name, value, usual) in [
+        ("friction", section.friction, "0.5 is usual for sand"),
+        ("rolling_resistance", section.rolling_resistance, "0.1 is usual for rounded sand"),
+    ] {
+        coefficient(&key(name), value.unwrap_or(0.0), usual)?;
     }
     match section.tangential_ratio {
         Some(ratio) if !TANGENTIAL_RATIOS.contains(&ratio) => {

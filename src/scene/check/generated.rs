@@ -13,7 +13,7 @@ use super::Trouble;
 use super::contact::DEFAULT_FRICTION;
 use super::grain_kinds::size_key;
 use super::grains::{Ball, Place, check_size};
-use super::numbers::{absent, count, needed, positive};
+use super::numbers::{absent, coefficient, count, needed, positive};
 use crate::packing::{Amount, Sizes};
 use crate::scene::format_grains::GrainsSection;
 
@@ -84,11 +84,7 @@ pub(super) fn bed(section: &GrainsSection, place: &Place) -> Result<Vec<Ball>, T
     let number = whole(&at("count"), number, MOST_IN_BED)?;
     let radii = radii(section, place, Amount::Count(number), seed)?;
     let friction = section.packing_friction.unwrap_or(DEFAULT_FRICTION);
-    if !(friction >= 0.0 && friction.is_finite()) {
-        let problem = "it must be finite and not negative";
-        let remedy = "0 packs dense, 0.5 is usual for sand";
-        return Err(Trouble::new(at("packing_friction"), problem, remedy));
-    }
+    coefficient(&at("packing_friction"), friction, "0 packs dense, 0.5 is usual for sand")?;
     let faces = place.domain.faces();
     if faces.axis(2)[0] == Face::Periodic {
         let problem = "a bed lies on the face z_low, which is periodic";

@@ -20,7 +20,7 @@ mod list_text;
 mod lubrication;
 mod mirrors;
 pub(crate) mod neighbours;
-mod numbers;
+pub(crate) mod numbers;
 pub mod records;
 mod solid;
 pub mod stop;

@@ -25,6 +25,19 @@ pub(super) fn positive(key: &str, value: f64, hint: &str) -> Result<(), Trouble>
     Err(Trouble::new(key, "it must be positive and finite", remedy))
 }
 
+/// Coefficients of friction and of rolling resistance that are accepted. Those of rough grains are below 2; a larger one
+/// than this holds two grains together as well as any.
+pub(crate) const COEFFICIENTS: RangeInclusive<f64> = 0.0..=10.0;
+
+/// Errors unless `value` is such a coefficient. `usual` is the remedy.
+pub(super) fn coefficient(key: &str, value: f64, usual: &str) -> Result<(), Trouble> {
+    if COEFFICIENTS.contains(&value) {
+        return Ok(());
+    }
+    let (low, high) = (COEFFICIENTS.start(), COEFFICIENTS.end());
+    Err(Trouble::new(key, format!("it must lie between {low} and {high}"), usual))
+}
+
 /// Errors unless `value` lies within `limits`, far wider than anything that has been computed: within
 /// them all scales of a scene are finite numbers.
 pub(super) fn sane(

@@ -17,7 +17,8 @@ pub(crate) const TOO_LARGE: f64 = 0.1;
 
 /// A scene and what is predicted of it.
 pub(crate) struct Outlook {
-    facts: Facts,
+    /// What the scene is.
+    pub facts: Facts,
     models: &'static Models,
     collision: Preset,
     kernel: bool,
@@ -43,11 +44,15 @@ pub(crate) fn outlook(scene: &Scene) -> Option<Outlook> {
 }
 
 /// What the error is one of.
-pub(crate) fn subject(scene: &Scene) -> &'static str {
-    match (settles(scene), scene.setup.body_force) {
-        (true, _) => "the settling velocity",
-        (false, Some(_)) => "the flow that the force drives",
-        (false, None) => "the flow that a given force would drive",
+pub(crate) fn subject(scene: &Scene, limit: &Limit) -> &'static str {
+    match (limit, settles(scene), scene.setup.body_force) {
+        (Limit::Plates { .. } | Limit::Shear { .. }, ..) => "the profile (relative L2)",
+        (Limit::Duct { .. }, ..) => "the mean velocity",
+        (Limit::Grains { .. }, true, _) => "the settling velocity",
+        (Limit::Grains { .. }, false, Some(_)) => "the flow that the force drives",
+        (Limit::Grains { .. }, false, None) => {
+            "the flow that a given force would drive past the grains"
+        }
     }
 }
 
@@ -106,7 +111,9 @@ fn because(facts: &Facts) -> String {
             "{cells:.1} cells across the smallest grain, tau = {tau:.4}, and a drag of {drag:.2} times Stokes', \
              that of {because}"
         ),
-        Limit::Plates { cells } => format!("{cells} cells from wall to wall, tau = {tau:.4}"),
+        Limit::Plates { cells } | Limit::Shear { cells } => {
+            format!("{cells} cells from wall to wall, tau = {tau:.4}")
+        }
         Limit::Duct { cells, .. } => format!("{cells} cells across the duct, tau = {tau:.4}"),
     }
 }

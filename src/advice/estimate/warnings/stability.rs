@@ -2,12 +2,12 @@
 
 use psmrt_reference::collision::Preset;
 use psmrt_reference::domain::Face;
-use psmrt_reference::lattice::viscosity;
 
 use super::warning;
 use crate::advice::estimate::bed::{DENSE, bed};
 use crate::advice::estimate::spheres::solid_fraction;
-use crate::advice::estimate::{Warning, diameters, si_velocity};
+use crate::advice::estimate::velocity::superficial;
+use crate::advice::estimate::{Warning, si_velocity};
 use crate::advice::stability::limits::Measured;
 use crate::scene::Scene;
 
@@ -23,13 +23,13 @@ pub(crate) fn mapped(scene: &Scene) -> Option<(Measured, &'static str, f64, Stri
     let phase = scene.setup.solid_phase.as_ref();
     match phase.filter(|_| fraction >= DENSE) {
         Some(phase) => {
-            let (speed, source) = superficial_velocity(scene, fraction)?;
+            let (speed, source) = superficial_velocity(scene)?;
             Some((Measured::Bed(phase.weighting), "an ordered bed of fixed grains", speed, source))
         }
         None => {
             let (si_speed, source) = si_velocity(scene)?;
             let speed = si_speed / scene.units.si_velocity();
-            Some((Measured::Fluid, "a shear layer", speed, source.to_owned()))
+            Some((Measured::Fluid, "a shear layer", speed, source))
         }
     }
 }
@@ -64,8 +64,8 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
 }
 
 /// The superficial velocity through a bed, cells per step, and where it comes from: that of an inlet, or
-/// what the body force drives by Ergun's law.
-fn superficial_velocity(scene: &Scene, fraction: f64) -> Option<(f64, String)> {
+/// what the body force drives.
+fn superficial_velocity(scene: &Scene) -> Option<(f64, String)> {
     let faces = scene.setup.domain.faces();
     let inlets = (0..3).flat_map(|axis| faces.axis(axis).map(|face| (axis, face)));
     let fastest = inlets
@@ -74,16 +74,5 @@ fn superficial_velocity(scene: &Scene, fraction: f64) -> Option<(f64, String)> {
             _ => None,
         })
         .fold(0.0, f64::max);
-    if fastest > 0.0 {
-        return Some((fastest, "the inlet".to_owned()));
-    }
-    let force = scene.setup.body_force?.norm();
-    let (diameter, _) = diameters(scene)?;
-    let (nu, porosity) = (viscosity(scene.setup.collision.tau()), 1.0 - fraction);
-    let cube = porosity.powi(3);
-    // G = 150 ν (1-ε)² U/(ε³ d²) + 1.75 (1-ε) U²/(ε³ d)          (Ergun, Chem. Eng. Prog. 48, 89 (1952))
-    let a = 1.75 * fraction / (cube * diameter);
-    let b = 150.0 * nu * fraction * fraction / (cube * diameter * diameter);
-    let speed = 2.0 * force / (b + (b * b + 4.0 * a * force).sqrt());
-    (speed > 0.0).then(|| (speed, "the body force, by Ergun's law,".to_owned()))
+    if fastest > 0.0 { Some((fastest, "the inlet".to_owned())) } else { superficial(scene) }
 }
