@@ -7,7 +7,7 @@
 //! | D3Q19 | directions and their numbering | [`directions`] |
 //! | D3Q19 | weights, density, momentum, viscosity | [`lattice`] |
 //! | Eq. 1 | streaming | [`streaming`], at the faces [`boundary`], where sound leaves [`non_reflecting`] |
-//! | Eq. 1, `G` | body force | [`forcing`] |
+//! | Eq. 1, `G` | body force | [`forcing`]; its value in a step, and those of the faces, [`drive`] |
 //! | Eq. 2 | SRT (BGK) | [`collision`] |
 //! | Eq. 3 | MRT | [`collision`], `M` in [`moments`], `S-hat` in [`rates`] |
 //! | Eqs. 2, 3, `f_eq`, `m_eq` | equilibria | [`equilibrium`] |
@@ -33,6 +33,7 @@ pub mod coupling;
 pub mod coverage;
 pub mod directions;
 pub mod domain;
+pub mod drive;
 pub mod equilibrium;
 pub mod forcing;
 pub mod grains;

@@ -23,7 +23,8 @@ pub struct SolidPhase {
     pub coverage: CoverageRule,
 }
 
-/// Everything a solver needs, in lattice units. What is `None` costs nothing.
+/// Everything a solver needs, in lattice units. What is `None` costs nothing. The body force and the values of the
+/// faces are those of now: [`Self::set_drive`] changes them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// The domain and its faces.
@@ -88,8 +89,8 @@ impl Setup {
     /// Errors if any part cannot be run.
     pub fn check(&self) -> Result<(), SetupError> {
         self.collision.checked()?;
-        if let Some(g) = self.body_force.filter(|g| !g.iter().all(|value| value.is_finite())) {
-            return Err(SetupError::BodyForce { value: g.into() });
+        if let Some(g) = &self.body_force {
+            check_body_force(g)?;
         }
         if let Some(phase) = &self.solid_phase {
             for (number, solid) in phase.solids.iter().enumerate() {
@@ -101,4 +102,12 @@ impl Setup {
         }
         Ok(())
     }
+}
+
+/// Errors unless every component is finite.
+pub(crate) fn check_body_force(g: &Vec3) -> Result<(), SetupError> {
+    if g.iter().all(|value| value.is_finite()) {
+        return Ok(());
+    }
+    Err(SetupError::BodyForce { value: (*g).into() })
 }

@@ -10,6 +10,7 @@ use crate::collision::CollisionOperator;
 use crate::coverage::Coverage;
 use crate::directions::Q;
 use crate::domain::Domain;
+use crate::drive::{Drive, DriveError};
 use crate::forcing::forced_velocity;
 use crate::guard::{Evidence, Guard, Stopped};
 use crate::lattice::{Populations, Vec3, density, momentum};
@@ -222,7 +223,7 @@ impl Solver {
         self.guard.density_drift()
     }
 
-    /// The set-up, with the solids where they are now.
+    /// The set-up, with the solids where they are now and the drive of now.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
@@ -267,11 +268,9 @@ impl Solver {
         displaced
     }
 
-    /// Sets the body force from the next step on; its presence cannot change.
-    pub fn set_body_force(&mut self, body_force: Vec3) {
-        if let Some(force) = &mut self.setup.body_force {
-            *force = body_force;
-        }
+    /// Drives the fluid so from the next step on. Errors as [`Setup::set_drive`].
+    pub fn set_drive(&mut self, drive: &Drive) -> Result<(), DriveError> {
+        self.setup.set_drive(drive)
     }
 
     /// Density of each cell.

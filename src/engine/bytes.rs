@@ -2,6 +2,7 @@
 
 use std::io::{self, Read, Write};
 
+use psmrt_reference::drive::{Drive, FaceValue};
 use psmrt_reference::lattice::Vec3;
 
 pub(super) fn put_whole(out: &mut dyn Write, value: u64) -> io::Result<()> {
@@ -14,6 +15,32 @@ pub(super) fn put_real(out: &mut dyn Write, value: f64) -> io::Result<()> {
 
 pub(super) fn put_vector(out: &mut dyn Write, vector: &Vec3) -> io::Result<()> {
     vector.iter().try_for_each(|&value| put_real(out, value))
+}
+
+/// Writes the values of a drive, those that it has.
+pub(super) fn put_drive(out: &mut dyn Write, drive: &Drive) -> io::Result<()> {
+    drive.body_force.iter().try_for_each(|force| put_vector(out, force))?;
+    drive.faces.iter().flatten().try_for_each(|value| match value {
+        FaceValue::None => Ok(()),
+        FaceValue::Velocity(velocity) => put_vector(out, velocity),
+        FaceValue::Density(density) => put_real(out, *density),
+    })
+}
+
+/// Reads a drive with values of the same kinds as those of `like`.
+pub(super) fn drive(from: &mut dyn Read, like: &Drive) -> io::Result<Drive> {
+    let mut drive = like.clone();
+    if let Some(force) = &mut drive.body_force {
+        *force = vector(from)?;
+    }
+    for value in drive.faces.iter_mut().flatten() {
+        match value {
+            FaceValue::None => {}
+            FaceValue::Velocity(velocity) => *velocity = vector(from)?,
+            FaceValue::Density(density) => *density = real(from)?,
+        }
+    }
+    Ok(drive)
 }
 
 pub(super) fn whole(from: &mut dyn Read) -> io::Result<u64> {

@@ -7,6 +7,7 @@
 use std::cell::RefCell;
 
 use psmrt_reference::coupling::{CoupledStop, FreeGrains, Gravity, with_displaced};
+use psmrt_reference::drive::Drive;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::guard::Guard;
@@ -14,7 +15,7 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
-use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine};
+use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine, StartError};
 use crate::machine::{Beginning, Spent};
 use crate::scene::FreePart;
 
@@ -84,9 +85,15 @@ impl Coupled {
         self.steps
     }
 
-    /// The set-up, with the solids where they are now.
+    /// The set-up, with the solids where they are now and the drive of now.
     pub fn setup(&self) -> &Setup {
         self.fluid.setup()
+    }
+
+    /// Lets `drive` drive the fluid from now on ([`FluidEngine::set_drive`]): for one that changes, before each step.
+    /// Errors, and changes nothing, as [`Setup::set_drive`].
+    pub fn set_drive(&mut self, drive: &Drive) -> Result<(), StartError> {
+        self.fluid.set_drive(drive)
     }
 
     /// Makes `count` steps. Errors when the guard finds the state broken, a free grain cannot be moved,

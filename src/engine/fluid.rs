@@ -5,12 +5,13 @@
 use std::fmt;
 use std::io::{self, Read, Write};
 
+use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Guard, Sight};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
-use super::{Block, DeviceError};
+use super::{Block, DeviceError, StartError};
 use crate::machine::Spent;
 
 /// The state of one cell, lattice units.
@@ -46,8 +47,13 @@ pub trait FluidEngine: fmt::Debug + Send {
         None
     }
 
-    /// The set-up, with the solids where they are now.
+    /// The set-up, with the solids where they are now and the drive of now.
     fn setup(&self) -> &Setup;
+
+    /// Lets `drive` drive the fluid from now on. A step takes its body force in the collision and its face values in
+    /// the streaming after it; what is observed has the body force of now, and populations that came in with the face
+    /// values of the step before. Errors, and changes nothing, as [`Setup::set_drive`].
+    fn set_drive(&mut self, drive: &Drive) -> Result<(), StartError>;
 
     /// Puts the solids elsewhere. They are as many as before, and of the same shapes.
     fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), DeviceError>;
@@ -85,11 +91,11 @@ pub trait FluidEngine: fmt::Debug + Send {
         Vec::new()
     }
 
-    /// Writes what it needs to go on, bit for bit, besides its set-up, its solids and their loads.
+    /// Writes what it needs to go on, bit for bit, besides its set-up, its solids, their loads and its drive.
     fn save(&self, out: &mut dyn Write) -> io::Result<()>;
 
-    /// Takes what [`Self::save`] wrote for the same scene, with the solids and the loads of then. After an
-    /// error it is of no use.
+    /// Takes what [`Self::save`] wrote for the same scene, with the solids and the loads of then; the drive of then
+    /// has been set. After an error it is of no use.
     fn load(&mut self, from: &mut dyn Read, solids: Vec<Solid>, loads: Vec<Load>)
     -> io::Result<()>;
 }

@@ -23,6 +23,7 @@ use std::error::Error;
 use std::sync::Arc;
 
 use psmrt_reference::coupling::CoupledStop;
+use psmrt_reference::drive::DriveError;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::setup::SetupError;
 use thiserror::Error;
@@ -47,7 +48,7 @@ impl DeviceError {
     }
 }
 
-/// A scene that an engine cannot start.
+/// What an engine cannot take: a scene to start from, or a drive.
 #[derive(Debug, Error)]
 pub enum StartError {
     /// The set-up.
@@ -56,6 +57,9 @@ pub enum StartError {
     /// The grains.
     #[error(transparent)]
     Grains(#[from] GrainError),
+    /// The drive.
+    #[error(transparent)]
+    Drive(#[from] DriveError),
     /// The device.
     #[error(transparent)]
     Device(#[from] DeviceError),

@@ -3,6 +3,7 @@
 use std::io::{self, Read, Write};
 
 use psmrt_reference::domain::{Domain, Faces};
+use psmrt_reference::drive::Drive;
 use psmrt_reference::forcing::forced_velocity;
 use psmrt_reference::guard::{Guard, Sight};
 use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
@@ -11,7 +12,7 @@ use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::{Memory, Solver};
 
 use super::bytes::{put_real, real};
-use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine};
+use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, StartError};
 use crate::scene::Scene;
 
 /// Plain double precision on the CPU.
@@ -80,6 +81,10 @@ impl FluidEngine for ReferenceEngine {
 
     fn setup(&self) -> &Setup {
         self.solver.setup()
+    }
+
+    fn set_drive(&mut self, drive: &Drive) -> Result<(), StartError> {
+        Ok(self.solver.set_drive(drive)?)
     }
 
     fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), DeviceError> {

@@ -7,7 +7,9 @@ use psmrt_reference::coupling::FreeGrains;
 use psmrt_reference::guard::{Evidence, Guard};
 use psmrt_reference::solids::{Load, Solid};
 
-use super::bytes::{expect, put_real, put_vector, put_whole, real, vector, whole};
+use super::bytes::{
+    drive, expect, put_drive, put_real, put_vector, put_whole, real, vector, whole,
+};
 use super::coupled::{Coupled, Grains};
 use super::free_state;
 
@@ -33,6 +35,7 @@ impl Coupled {
             ];
             vectors.into_iter().try_for_each(|vector| put_vector(out, vector))?;
         }
+        put_drive(out, &self.setup().drive())?;
         put_whole(out, self.setup().domain.cell_count() as u64)?;
         self.fluid.save(out)?;
         match &self.grains {
@@ -60,6 +63,9 @@ impl Coupled {
                 (vector(from)?, vector(from)?, vector(from)?);
             loads.push(Load { force: vector(from)?, torque: vector(from)? });
         }
+        // The kinds of its values are the set-up's.
+        let drive = drive(from, &self.setup().drive())?;
+        self.fluid.set_drive(&drive).map_err(io::Error::other)?;
         expect(whole(from)?, self.setup().domain.cell_count(), "cells")?;
         self.fluid.load(from, solids, loads)?;
         if let Some(Grains { moving, part }) = &mut self.grains {

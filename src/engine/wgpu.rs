@@ -4,13 +4,14 @@ use std::io::{self, Read, Write};
 use std::sync::Arc;
 
 use psmrt_reference::directions::{C, Q};
+use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Guard, Sight};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
 use super::bytes::{put_whole, whole};
-use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine};
+use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, StartError};
 use crate::kernel::{Gpu, Kernel, KernelError, KernelTimes, Summary};
 use crate::machine::Spent;
 
@@ -66,6 +67,10 @@ impl FluidEngine for KernelEngine {
 
     fn setup(&self) -> &Setup {
         self.kernel.setup()
+    }
+
+    fn set_drive(&mut self, drive: &Drive) -> Result<(), StartError> {
+        Ok(self.kernel.set_drive(drive)?)
     }
 
     fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), DeviceError> {

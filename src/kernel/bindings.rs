@@ -20,6 +20,8 @@ pub(super) enum Binding {
     Excess,
     /// Momentum and density of each covered cell before its collision.
     Moments,
+    /// The body force and the values of the faces.
+    Drive,
     /// Which cells are worked on.
     Task,
     /// Their list.
@@ -62,12 +64,13 @@ pub(super) enum Binding {
 
 impl Binding {
     /// All of them from [`Binding::CellWeights`] on have a name in the shaders.
-    const NAMED: [Binding; 24] = [
+    const NAMED: [Binding; 25] = [
         Binding::CellWeights,
         Binding::Slots,
         Binding::Records,
         Binding::Excess,
         Binding::Moments,
+        Binding::Drive,
         Binding::Task,
         Binding::CellList,
         Binding::Outgoing,

@@ -9,6 +9,7 @@ use psmrt_reference::partial_saturation::SolidOperator;
 use psmrt_reference::setup::Setup;
 
 use super::bindings::Binding;
+use super::driven::has_face_values;
 use super::layout::{Layout, Store};
 use super::numbers::{count, literal};
 use super::outgoing;
@@ -97,6 +98,15 @@ impl Recipe<'_> {
         if is_in { (self.solids, with_loads) } else { (SolidData::None, false) }
     }
 
+    /// Whether `work` depends on the body force or on what a face holds.
+    pub(super) fn takes_drive(&self, work: Work) -> bool {
+        let has_force = work != Work::Observe && self.setup.body_force.is_some();
+        // Those of all cells take every face for periodic, and the first step does not stream.
+        let has_faces =
+            !matches!(work, Work::Step { .. } | Work::StepListed { is_first: true, .. });
+        has_force || (has_faces && has_face_values(self.setup))
+    }
+
     /// The shader for `work`.
     pub(super) fn shader(&self, work: Work) -> String {
         let listed = !matches!(work, Work::Step { .. });
@@ -105,6 +115,7 @@ impl Recipe<'_> {
         let flags = self.flags(work);
         let mut text = self.constants();
         let mut add = |file: &str| text += &selected(file, &flags);
+        add(include_str!("wgsl/drive.wgsl"));
         if solids == SolidData::Moving {
             add(&table::reader(self.layout.store, Binding::Records, "records"));
         }
@@ -215,7 +226,6 @@ impl Recipe<'_> {
             Collision::Srt { tau } => [1.0 / tau; 6],
             Collision::Mrt { rates } => [rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m],
         };
-        let g = self.setup.body_force.map_or([0.0; 3], Into::into).map(literal);
         let whole = [
             ("NX", nx),
             ("NY", ny),
@@ -244,10 +254,7 @@ impl Recipe<'_> {
         for (name, value) in real {
             text += &format!("const {name} = {};\n", literal(value));
         }
-        for (axis, value) in ["X", "Y", "Z"].iter().zip(&g) {
-            text += &format!("const G_{axis} = {value};\n");
-        }
-        text + "const G = vec3<f32>(G_X, G_Y, G_Z);\n"
+        text
     }
 
     /// The cells that `step` gets wrong: those at faces that are not periodic. In order.

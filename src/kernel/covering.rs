@@ -16,7 +16,7 @@ pub(super) enum Stage {
     /// What each cell is made of.
     Resolve,
     /// How many cells are listed.
-    Drive,
+    Groups,
 }
 
 /// What a shader that finds what solids cover is made from.
@@ -71,7 +71,7 @@ impl Recipe<'_> {
                 text += &table::writer(store, Binding::Records, "records");
                 text += &selected(include_str!("wgsl/resolve.wgsl"), &flags);
             }
-            Stage::Drive => text += include_str!("wgsl/drive.wgsl"),
+            Stage::Groups => text += include_str!("wgsl/groups.wgsl"),
         }
         text
     }

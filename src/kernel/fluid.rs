@@ -14,6 +14,7 @@ use wgpu::{BufferUsages, TextureFormat};
 use super::buffers::Growing;
 use super::compose::{Recipe, SolidData, Work};
 use super::device::Gpu;
+use super::driven::Driven;
 use super::error::KernelError;
 use super::field::Field;
 use super::layout::Layout;
@@ -45,6 +46,7 @@ pub struct Kernel {
     pub(super) list: Growing,
     pub(super) list_count: u32,
     pub(super) tasks: Tasks,
+    pub(super) driven: Driven,
     pub(super) step: Pipeline,
     /// The same that keeps the moments of covered cells, for the loads.
     pub(super) step_with_loads: OnceCell<Pipeline>,
@@ -123,6 +125,7 @@ impl Kernel {
             list: Growing::new(gpu, "list of cells")?,
             list_count: 0,
             tasks: Tasks::new(gpu)?,
+            driven: Driven::new(gpu, &setup)?,
             step,
             step_with_loads: OnceCell::new(),
             first_step: OnceCell::new(),
@@ -142,7 +145,7 @@ impl Kernel {
         Ok(kernel)
     }
 
-    /// The set-up, with the solids where they are now.
+    /// The set-up, with the solids where they are now and the drive of now.
     pub fn setup(&self) -> &Setup {
         &self.setup
     }

@@ -7,6 +7,7 @@
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `bindings.rs` | the number of every binding |
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
+//! | `driven.rs`, `wgsl/drive.wgsl` | the body force and the face values of a step |
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `solids.rs`, `touches.rs` | the solids on the device |
 //! | `movable.rs`, `covering.rs`, `wgsl/{cover,fraction,resolve}.wgsl` | what movable solids cover, found on the device |
@@ -33,6 +34,7 @@ mod compose;
 mod coverage;
 mod covering;
 mod device;
+mod driven;
 mod error;
 mod field;
 mod fluid;

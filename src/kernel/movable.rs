@@ -37,7 +37,7 @@ pub(super) struct DeviceList {
     pub(super) cells: Growing,
     /// Uniform buffer that says how many.
     pub(super) task: wgpu::Buffer,
-    /// Where in `Movable::drive` the number of workgroups stands, bytes.
+    /// Where in `Movable::groups` the number of workgroups stands, bytes.
     pub(super) groups_at: u64,
 }
 
@@ -54,7 +54,7 @@ pub(super) struct Movable {
     rows: Growing,
     fractions: Growing,
     found: Growing,
-    pub(super) drive: wgpu::Buffer,
+    pub(super) groups: wgpu::Buffer,
     /// Cells that one solid touches; listed where the step of all cells has no solids in it.
     pub(super) alone: DeviceList,
     /// Cells in which several solids meet.
@@ -103,7 +103,7 @@ impl Movable {
                 vec![Solids, Given, Rows, Counts, Slots, Touches, Links, Shares],
             )?,
             Pipeline::of(gpu, &resolve, "resolve", of_cells)?,
-            Pipeline::of(gpu, &stage(Stage::Drive), "drive", vec![Found, Groups])?,
+            Pipeline::of(gpu, &stage(Stage::Groups), "groups", vec![Found, Groups])?,
         ];
         let words = |label, words: u64| {
             let mut buffer = Growing::new(gpu, label)?;
@@ -127,7 +127,7 @@ impl Movable {
             rows: words("rows of cells about solids", 2 * u64::from(rows))?,
             fractions: words("solid fractions of touches", 2 * all)?,
             found: words("numbers of covered cells", 2)?,
-            drive: gpu.buffer(
+            groups: gpu.buffer(
                 "listed cells",
                 64,
                 BufferUsages::STORAGE | BufferUsages::INDIRECT | BufferUsages::COPY_SRC,
@@ -179,7 +179,7 @@ impl Movable {
             }
             drop(pass);
             for list in [&self.alone, &self.meetings] {
-                encoder.copy_buffer_to_buffer(&self.drive, list.groups_at + 16, &list.task, 0, 16);
+                encoder.copy_buffer_to_buffer(&self.groups, list.groups_at + 16, &list.task, 0, 16);
             }
             gpu.queue.submit([encoder.finish()]);
         })
@@ -201,7 +201,7 @@ impl Movable {
             Binding::Alone => self.alone.cells.resource(),
             Binding::Meetings => self.meetings.cells.resource(),
             Binding::Records => self.records.resource(),
-            Binding::Groups => self.drive.as_entire_binding(),
+            Binding::Groups => self.groups.as_entire_binding(),
             _ => touches.resource(at)?,
         })
     }

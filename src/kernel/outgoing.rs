@@ -18,6 +18,7 @@ use psmrt_reference::domain::{Domain, Face};
 
 use super::buffers::Growing;
 use super::device::Gpu;
+use super::driven;
 use super::error::KernelError;
 use super::numbers::{count, literal, single};
 
@@ -29,7 +30,6 @@ pub(super) const BINDINGS: u32 = 2;
 struct OpenFace {
     axis: usize,
     is_high: bool,
-    density: f64,
     memory: f64,
     /// Number of its first cell among those of all such faces.
     first: usize,
@@ -40,8 +40,8 @@ fn open_faces(domain: &Domain) -> (Vec<OpenFace>, usize) {
     let (mut faces, mut first) = (Vec::new(), 0);
     for axis in 0..3 {
         for (face, is_high) in domain.faces().axis(axis).into_iter().zip([false, true]) {
-            if let Face::NonReflectingPressure { density, memory } = face {
-                faces.push(OpenFace { axis, is_high, density, memory, first });
+            if let Face::NonReflectingPressure { memory, .. } = face {
+                faces.push(OpenFace { axis, is_high, memory, first });
                 first += domain.cell_count() / domain.cells()[axis];
             }
         }
@@ -162,12 +162,12 @@ pub(super) fn text(domain: &Domain, writes: bool) -> String {
 
 /// WGSL of one face.
 fn of_face(face: &OpenFace) -> String {
-    let &OpenFace { axis, is_high, density, memory, first } = face;
+    let &OpenFace { axis, is_high, memory, first } = face;
     let name = function(axis, is_high);
     let sign = if is_high { "" } else { "-" };
     let x = ["x", "y", "z"][axis];
     let number = ["at.y + NY * at.z", "at.x + NX * at.z", "at.x + NX * at.y"][axis];
-    let (first, drho_0) = (count(first), literal(density - 1.0));
+    let (first, drho_0) = (count(first), driven::face(axis, is_high) + ".w");
     let (rate, root) = (literal(1.0 / memory), literal(3.0_f64.sqrt()));
     format!(
         "

@@ -25,6 +25,9 @@ impl Pipeline {
             Work::Observe => bindings.extend([Binding::Task, Binding::CellList, Binding::Seen]),
             Work::Summary => bindings.extend([Binding::Task, Binding::Seen]),
         }
+        if recipe.takes_drive(work) {
+            bindings.push(Binding::Drive);
+        }
         if outgoing::has_any(&recipe.setup.domain) {
             match work {
                 Work::Step { .. } | Work::StepListed { is_first: true, .. } => {}

@@ -16,19 +16,17 @@ impl Kernel {
     }
 
     /// Hands out the populations as the device holds them, for each direction the bits of all cells, and then those
-    /// of the velocities at faces that let sound out.
+    /// of the velocities at faces that let sound out and those of the face values of the step made last.
     pub fn save(&self, mut row: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
         for a in 0..Q {
             let (binding, start) = self.layout.direction(a);
             let field = &self.copies[self.current][binding as usize];
             row(&field.read(&self.gpu, start).map_err(io::Error::other)?)?;
         }
-        match &self.outgoing {
-            Some(outgoing) => {
-                row(&outgoing.read(&self.gpu, self.current).map_err(io::Error::other)?)
-            }
-            None => Ok(()),
+        if let Some(outgoing) = &self.outgoing {
+            row(&outgoing.read(&self.gpu, self.current).map_err(io::Error::other)?)?;
         }
+        row(self.entered())
     }
 
     /// Goes on from what [`Self::save`] and [`Self::is_collided`] gave, and the loads of the last step.
@@ -48,6 +46,7 @@ impl Kernel {
         if let Some(outgoing) = &mut self.outgoing {
             outgoing.restore(&self.gpu, &mut row)?;
         }
+        self.restore_entered(row)?;
         self.is_collided = is_collided;
         if let Some(solids) = &mut self.solids {
             let vector = |v: &Vec3| [single(v.x), single(v.y), single(v.z), 0.0];

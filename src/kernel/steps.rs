@@ -22,12 +22,14 @@ impl Kernel {
         if left > 0 && !self.is_collided {
             left -= 1;
             self.first_step(with_loads && left == 0)?;
+            self.enter();
         }
         let per_submission = (SUBMISSION / u64::from(self.layout.count)).max(1);
         while left > 0 {
-            let now = left.min(per_submission);
+            let now = if self.has_entered() { left.min(per_submission) } else { 1 };
             left -= now;
             self.submit_steps(now, with_loads && left == 0)?;
+            self.enter();
             if left > 0 {
                 self.gpu.wait()?;
             }
@@ -49,7 +51,7 @@ impl Kernel {
             Some(movable) => {
                 let DeviceList { cells, task, groups_at } = &movable.meetings;
                 let group = self.bind(listed, task, Some(cells.buffer()))?;
-                Some((group, &movable.drive, *groups_at))
+                Some((group, &movable.groups, *groups_at))
             }
             None => None,
         };
@@ -59,9 +61,9 @@ impl Kernel {
             pass.set_pipeline(listed.raw());
             pass.set_bind_group(0, &all, &[]);
             dispatch(&mut pass, self.layout.count);
-            if let Some((group, drive, groups_at)) = &meetings {
+            if let Some((group, groups, groups_at)) = &meetings {
                 pass.set_bind_group(0, group, &[]);
-                pass.dispatch_workgroups_indirect(drive, *groups_at);
+                pass.dispatch_workgroups_indirect(groups, *groups_at);
             }
             drop(pass);
             self.gpu.queue.submit([encoder.finish()]);
@@ -98,7 +100,9 @@ impl Kernel {
                     pass.set_bind_group(0, &list.groups[parity], &[]);
                     match list.length {
                         Length::Known(count) => dispatch(&mut pass, count),
-                        Length::OnDevice(drive, at) => pass.dispatch_workgroups_indirect(drive, at),
+                        Length::OnDevice(groups, at) => {
+                            pass.dispatch_workgroups_indirect(groups, at);
+                        }
                     }
                 }
             }
@@ -147,7 +151,7 @@ impl Kernel {
         if let Some(movable) = self.solids.as_ref().and_then(Solids::movable) {
             let alone = (!in_every_cell).then_some(&movable.alone);
             for list in alone.into_iter().chain([&movable.meetings]) {
-                let length = Length::OnDevice(&movable.drive, list.groups_at);
+                let length = Length::OnDevice(&movable.groups, list.groups_at);
                 add(&list.task, &list.cells, length)?;
             }
         }
@@ -223,6 +227,7 @@ impl Kernel {
             let one = match at {
                 Binding::Old => return fields(from),
                 Binding::New => return fields(1 - from),
+                Binding::Drive => Some(self.driven.buffer.as_entire_binding()),
                 Binding::Task => task.map(wgpu::Buffer::as_entire_binding),
                 Binding::CellList => {
                     Some(list.unwrap_or_else(|| self.list.buffer()).as_entire_binding())

@@ -17,6 +17,7 @@ use psmrt_reference::directions::{C, OPPOSITE, Q};
 use psmrt_reference::domain::{Domain, Face};
 
 use super::bindings::Binding;
+use super::driven;
 use super::layout::{Layout, Store};
 use super::numbers::literal;
 use super::outgoing;
@@ -90,12 +91,12 @@ fn keep(layout: &Layout) -> String {
 /// WGSL function `entering`: the same as `wrapped`, with the faces. `writes`: whether the shader makes steps.
 pub(super) fn faces(domain: &Domain, layout: &Layout, writes: bool) -> String {
     let mut rules = String::new();
-    let mut needs_own = false;
+    let mut needed = Needs::Nothing;
     for a in 1..Q {
         let mut word = "if";
         for crossed in crossings(a) {
             let Some(rule) = rule(domain, layout, a, &crossed) else { continue };
-            needs_own |= rule.needs_own;
+            needed = needed.max(rule.needs);
             let conditions: Vec<&str> =
                 crossed.iter().map(|&axis| AT_FACE[axis][usize::from(C[a][axis] < 0)]).collect();
             rules += &format!(
@@ -120,11 +121,17 @@ pub(super) fn faces(domain: &Domain, layout: &Layout, writes: bool) -> String {
     if !rules.is_empty() {
         text += HERE;
         text += NEIGHBOURS;
-        if needs_own {
-            text += "    let here = own(x, y, z);\n    let drho = sum(here);\n";
-            text += "    let rho = 1.0 + drho;\n    let u = momentum(here) / rho;\n";
-            text += "    let u2 = dot(u, u);\n";
-        }
+        text += match needed {
+            Needs::Nothing => "",
+            // Walls at rest cost nothing.
+            Needs::Density => {
+                "    var rho = 1.0;\n    if (drive.moves > 0.0) {\n        rho += sum(own(x, y, z));\n    }\n"
+            }
+            Needs::Velocity => {
+                "    let here = own(x, y, z);\n    let rho = 1.0 + sum(here);\n    \
+                 let u = momentum(here) / rho;\n    let u2 = dot(u, u);\n"
+            }
+        };
         text += &rules;
     }
     text + "    return h;\n}\n"
@@ -204,19 +211,28 @@ fn crossings(a: usize) -> Vec<Vec<usize>> {
     }
 }
 
+/// What a rule needs to know of the cell besides its populations, the more the later.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Needs {
+    Nothing,
+    /// Its density, where a face has a velocity.
+    Density,
+    /// Density and velocity.
+    Velocity,
+}
+
 /// What enters, as WGSL.
 struct Rule {
     expression: String,
-    /// Whether it needs density and velocity of the cell.
-    needs_own: bool,
+    needs: Needs,
 }
 
 /// What enters along `a` where the link crosses faces along these axes; `None` if all are periodic.
 fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option<Rule> {
     let c = C[a].map(f64::from);
     let w = weight(a);
-    let mut wall: Option<[f64; 3]> = None;
-    // Axes and densities of the faces that the flow inside is carried over; no density where it follows the sound.
+    let mut walls = Vec::new();
+    // Faces that the flow inside is carried over: their axis, and whether the density follows the sound.
     let (mut pressure, mut carried) = (None, Vec::new());
     // Against which the cell lies that the link comes from.
     let mut along = C[a];
@@ -224,7 +240,8 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
     let mut direction = C[a];
     let mut is_periodic = true;
     for &axis in crossed {
-        let face = domain.faces().axis(axis)[usize::from(C[a][axis] < 0)];
+        let is_high = C[a][axis] < 0;
+        let face = domain.faces().axis(axis)[usize::from(is_high)];
         is_periodic &= face == Face::Periodic;
         match face {
             Face::Periodic => {}
@@ -237,50 +254,46 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
                 from[axis] = place(axis, 0);
                 along[axis] = 0;
             }
-            Face::DevelopedPressure { density } => {
+            Face::DevelopedPressure { .. } => {
                 from[axis] = place(axis, 0);
                 along[axis] = 0;
-                carried.push((axis, Some(density)));
+                carried.push((axis, false));
             }
             Face::NonReflectingPressure { .. } => {
                 from[axis] = place(axis, 0);
                 along[axis] = 0;
-                carried.push((axis, None));
+                carried.push((axis, true));
             }
-            Face::Wall { velocity } | Face::VelocityInlet { velocity } => {
-                let sum = wall.get_or_insert([0.0; 3]);
-                (0..3).for_each(|i| sum[i] += velocity[i]);
+            Face::Wall { .. } | Face::VelocityInlet { .. } => {
+                walls.push(driven::face(axis, is_high) + ".xyz");
             }
-            Face::Pressure { density } => pressure = Some(density),
+            Face::Pressure { .. } => pressure = Some(driven::face(axis, is_high) + ".w"),
         }
     }
     if is_periodic {
         return None;
     }
     let back = old(layout, OPPOSITE[a], &["x0", "y0", "z0"]);
-    Some(match (wall, pressure) {
-        (Some(u), _) => {
+    Some(match (walls.is_empty(), pressure) {
+        (false, _) => {
             // f_a = f*_-a + 6 w_a ρ (c_a·u_w)
-            let gain = 6.0 * w * (0..3).map(|i| c[i] * u[i]).sum::<f64>();
-            if gain == 0.0 {
-                Rule { expression: back, needs_own: false }
-            } else {
-                Rule { expression: format!("{back} + rho * {}", literal(gain)), needs_own: true }
-            }
+            let c = c.map(literal).join(", ");
+            let gain = format!("dot(vec3<f32>({c}), {})", walls.join(" + "));
+            let expression = format!("{back} + {} * rho * {gain}", literal(6.0 * w));
+            Rule { expression, needs: Needs::Density }
         }
-        (None, Some(density)) => {
+        (true, Some(drho)) => {
             // f_a = -f*_-a + 2 w_a ρ_w [1 + 9/2 (c_a·u)² - 3/2 u²], less the weights of both
             let cu: Vec<String> =
                 (0..3).map(|i| format!("{} * u.{}", literal(c[i]), ["x", "y", "z"][i])).collect();
             let cu = format!("({})", cu.join(" + "));
             let expression = format!(
-                "{} + {} * (4.5 * {cu} * {cu} - 1.5 * u2) - {back}",
-                literal(2.0 * w * (density - 1.0)),
-                literal(2.0 * w * density)
+                "{w} * ({drho} + (1.0 + {drho}) * (4.5 * {cu} * {cu} - 1.5 * u2)) - {back}",
+                w = literal(2.0 * w)
             );
-            Rule { expression, needs_own: true }
+            Rule { expression, needs: Needs::Velocity }
         }
-        (None, None) => {
+        (true, None) => {
             let number = C.iter().position(|&known| known == direction).unwrap_or(a);
             let sent = old(layout, number, &from);
             let expression = if carried.is_empty() {
@@ -288,11 +301,13 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
             } else {
                 let at: [String; 3] = std::array::from_fn(|axis| coordinate(axis, along[axis]));
                 let (at, c) = (at.join(", "), direction.map(|c| literal(f64::from(c))).join(", "));
-                let drho = |&(axis, density): &(usize, Option<f64>)| match density {
-                    Some(density) => literal(density - 1.0),
-                    None => {
-                        let function = outgoing::function(axis, C[a][axis] < 0);
+                let drho = |&(axis, follows_sound): &(usize, bool)| {
+                    let is_high = C[a][axis] < 0;
+                    if follows_sound {
+                        let function = outgoing::function(axis, is_high);
                         format!("{function}(own({at}), vec3<u32>({at}))")
+                    } else {
+                        driven::face(axis, is_high) + ".w"
                     }
                 };
                 let sum = carried.iter().map(drho).collect::<Vec<_>>().join(" + ");
@@ -301,7 +316,7 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
                 let w = literal(w);
                 format!("carried_over(own({at}), {sent}, vec3<f32>({c}), {w}, {share} * ({sum}))")
             };
-            Rule { expression, needs_own: false }
+            Rule { expression, needs: Needs::Nothing }
         }
     })
 }

@@ -9,6 +9,7 @@ use crate::trials::{self, Claim};
 use psmrt::engine::{Block, Coupled, EngineStop, open};
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::CoupledStop;
+use psmrt_reference::drive::FaceValue;
 use psmrt_reference::guard::Stopped;
 use psmrt_reference::solids::Shape;
 
@@ -271,6 +272,16 @@ fn saved_state_goes_on_bit_for_bit() {
             budget.spend((first + 2 * 30) * cells);
             let mut straight = kernel_engine(&scene);
             straight.step(first).unwrap();
+            // Faces of another value from now on: those of the step before are saved too.
+            let mut drive = straight.setup().drive();
+            for value in drive.faces.as_flattened_mut() {
+                match value {
+                    FaceValue::None => {}
+                    FaceValue::Velocity(velocity) => velocity.x += 1e-3,
+                    FaceValue::Density(density) => *density += 1e-3,
+                }
+            }
+            straight.set_drive(&drive).unwrap();
             let saved = bits(&straight);
             let mut resumed = kernel_engine(&scene);
             resumed.load(&mut &saved[..]).unwrap();

@@ -8,6 +8,8 @@ mod cli;
 mod common;
 #[path = "../conformance/mod.rs"]
 mod conformance;
+#[path = "../driven/mod.rs"]
+mod driven;
 #[path = "../edges/mod.rs"]
 mod edges;
 #[path = "../parity/mod.rs"]
@@ -16,6 +18,7 @@ mod parity;
 mod trials;
 
 mod conformance_candidates;
+mod drive;
 mod kernel_conformance;
 mod kernel_engine;
 mod kernel_extremes;
@@ -30,6 +33,7 @@ fn main() -> ExitCode {
     let arguments = trials::arguments();
     let mut all = conformance_candidates::trials();
     for (file, claims) in [
+        ("drive", drive::CLAIMS),
         ("kernel_conformance", kernel_conformance::CLAIMS),
         ("kernel_engine", kernel_engine::CLAIMS),
         ("kernel_extremes", kernel_extremes::CLAIMS),

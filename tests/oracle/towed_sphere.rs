@@ -85,7 +85,9 @@ impl Array {
         // acts on the cells that are free of the sphere, nearly.
         let lack = self.along(&solver.loads()[0].force) + kept - before;
         let free = cells * (1.0 - PI / 48.0);
-        solver.set_body_force(lack / free * self.way() / self.way().norm());
+        let mut drive = solver.setup().drive();
+        drive.body_force = Some(lack / free * self.way() / self.way().norm());
+        solver.set_drive(&drive).unwrap();
         let velocity = self.along(&sphere(solver).velocity);
         budget.run(solver, 1);
         let flux = 0.5 * (before + self.along(&total_momentum(solver))) / cells;

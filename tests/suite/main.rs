@@ -10,6 +10,8 @@ mod cli;
 mod common;
 #[path = "../conformance/mod.rs"]
 mod conformance;
+#[path = "../driven/mod.rs"]
+mod driven;
 #[path = "../edges/mod.rs"]
 mod edges;
 
@@ -26,6 +28,7 @@ mod cli_resume_refused;
 mod cli_run;
 mod conformance_files;
 mod conformance_oracle;
+mod drive;
 mod exact_text;
 mod extremes;
 mod kernel_coverage;

@@ -1,14 +1,13 @@
-// How many workgroups the lists of cells take, and the tasks that say so (task.wgsl).
+// What drives the fluid in a step (driven.rs).
 
-@group(0) @binding(BIND_Found) var<storage, read> found: array<u32, 2>;
-@group(0) @binding(BIND_Groups) var<storage, read_write> tasks: array<vec4<u32>, 4>;
-
-@compute @workgroup_size(2)
-fn drive(@builtin(local_invocation_index) list: u32) {
-    let count = found[list];
-    let groups = (count + 63u) / 64u;
-    let row = ROW / 64u;
-    // The numbers of cells in which several solids meet stand for their rows of excess.
-    tasks[2u * list] = vec4<u32>(min(groups, row), (groups + row - 1u) / row, 1u, 0u);
-    tasks[2u * list + 1u] = vec4<u32>(count, 1u, 1u, count * list);
+struct Drive {
+    // Body force per volume.
+    force: vec3<f32>,
+    // Whether any face has a velocity: 0 or 1.
+    moves: f32,
+    // Velocity and density less 1 of each face: -x, +x, -y, ...
+    faces: array<vec4<f32>, 6>,
 }
+
+@group(0) @binding(BIND_Drive) var<uniform> drive: Drive;
+

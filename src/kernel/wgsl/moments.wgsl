@@ -79,9 +79,9 @@ fn collided(
     // u = (j + G/2)/ρ
     let over_rho = 1.0 / rho;
 //#if FORCE
-    let k_x = j_x + 0.5 * G_X;
-    let k_y = j_y + 0.5 * G_Y;
-    let k_z = j_z + 0.5 * G_Z;
+    let k_x = j_x + 0.5 * drive.force.x;
+    let k_y = j_y + 0.5 * drive.force.y;
+    let k_z = j_z + 0.5 * drive.force.z;
 //#else
     let k_x = j_x;
     let k_y = j_y;
@@ -120,27 +120,27 @@ fn collided(
     var g_xz = S_NU * (t_xz - pxz);
 //#if FORCE
     // + (I - Ŝ/2) F,  F the derivative of m_eq along ρu → G
-    let w_x = u_x * G_X;
-    let w_y = u_y * G_Y;
-    let w_z = u_z * G_Z;
+    let w_x = u_x * drive.force.x;
+    let w_y = u_y * drive.force.y;
+    let w_z = u_z * drive.force.z;
     let power = w_x + w_y + w_z;
     let f_xx = 2.0 * (2.0 * w_x - w_y - w_z);
     let f_ww = 2.0 * (w_y - w_z);
     g_e += (1.0 - 0.5 * S_E) * 38.0 * power;
     g_eps -= (1.0 - 0.5 * S_EPS) * 11.0 * power;
-    gq_x -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * G_X;
-    gq_y -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * G_Y;
-    gq_z -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * G_Z;
+    gq_x -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * drive.force.x;
+    gq_y -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * drive.force.y;
+    gq_z -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * drive.force.z;
     g_pxx += (1.0 - 0.5 * S_NU) * f_xx;
     g_pixx -= (1.0 - 0.5 * S_PI) * 0.5 * f_xx;
     g_pww += (1.0 - 0.5 * S_NU) * f_ww;
     g_piww -= (1.0 - 0.5 * S_PI) * 0.5 * f_ww;
-    g_xy += (1.0 - 0.5 * S_NU) * (u_x * G_Y + u_y * G_X);
-    g_yz += (1.0 - 0.5 * S_NU) * (u_y * G_Z + u_z * G_Y);
-    g_xz += (1.0 - 0.5 * S_NU) * (u_x * G_Z + u_z * G_X);
-    var gj_x = f32(G_X);
-    var gj_y = f32(G_Y);
-    var gj_z = f32(G_Z);
+    g_xy += (1.0 - 0.5 * S_NU) * (u_x * drive.force.y + u_y * drive.force.x);
+    g_yz += (1.0 - 0.5 * S_NU) * (u_y * drive.force.z + u_z * drive.force.y);
+    g_xz += (1.0 - 0.5 * S_NU) * (u_x * drive.force.z + u_z * drive.force.x);
+    var gj_x = drive.force.x;
+    var gj_y = drive.force.y;
+    var gj_z = drive.force.z;
 //#end
 
 //#if SOLIDS

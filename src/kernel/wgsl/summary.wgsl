@@ -39,9 +39,9 @@ fn summary(@builtin(global_invocation_id) id: vec3<u32>) {
         let bare2 = dot(u, u);
         part.density += drho;
 //#if FORCE
-        let full = (j + 0.5 * G) / rho;
+        let full = (j + 0.5 * drive.force) / rho;
         let speed2 = dot(full, full);
-        var gain = G;
+        var gain = drive.force;
 //#else
         let speed2 = bare2;
         var gain = vec3<f32>(0.0);

@@ -6,13 +6,14 @@
 use std::io::{self, Read, Write};
 
 use psmrt_reference::directions::C;
+use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Guard, Sight};
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
 
 use psmrt::advice::tradeoff::parameters::Storage;
 use psmrt::engine::{
-    Block, BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine,
+    Block, BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine, StartError,
 };
 use psmrt::scene::Scene;
 
@@ -74,6 +75,10 @@ impl FluidEngine for RoundedEngine {
 
     fn setup(&self) -> &Setup {
         self.inner.setup()
+    }
+
+    fn set_drive(&mut self, drive: &Drive) -> Result<(), StartError> {
+        self.inner.set_drive(drive)
     }
 
     fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), DeviceError> {
