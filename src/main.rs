@@ -7,6 +7,7 @@ use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use clap::builder::PossibleValuesParser;
 use clap::{CommandFactory, Parser, Subcommand};
 use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
@@ -17,6 +18,7 @@ use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::say::{say, say_bytes, tell};
 use psmrt::command::{self, CommandError};
+use psmrt::engine::EngineName;
 use psmrt::quote;
 
 /// Particle-resolved simulation of grains in water: lattice Boltzmann with a verified oracle.
@@ -165,12 +167,17 @@ struct Former {
     _arguments: Vec<String>,
 }
 
+/// The words that `--engine` takes.
+fn engine_words() -> impl Iterator<Item = &'static str> {
+    EngineName::ALL.into_iter().map(EngineName::word).chain(["auto"])
+}
+
 /// What computes; the same as `--set engine.kind=...` and `--set engine.adapter=...`.
 #[derive(clap::Args)]
 struct EngineArguments {
     /// What computes: `reference` in double precision on the CPU, `wgpu` in single precision on an
     /// adapter, `auto` wgpu where there is a GPU in hardware [default: the scene's, else reference]
-    #[arg(long, value_parser = ["reference", "wgpu", "auto"])]
+    #[arg(long, value_parser = PossibleValuesParser::new(engine_words()))]
     engine: Option<String>,
     /// A part of the adapter's name, see `psmrt info`; alone it stands for `--engine wgpu` too
     #[arg(long, value_name = "NAME")]

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use super::say::say;
+use crate::engine::EngineName;
 use crate::kernel::{AdapterFacts, adapters};
 use crate::{machine, provenance};
 
@@ -29,10 +30,9 @@ pub(super) fn machine() -> Value {
 /// Prints it.
 pub fn info(json: bool) {
     let (program, machine) = (program(), machine());
-    let engines = json!([
-        { "name": "reference", "what": "the oracle: double precision, CPU" },
-        { "name": "wgpu", "what": "the kernel: single precision, any adapter" },
-    ]);
+    let engines =
+        EngineName::ALL.map(|engine| json!({ "name": engine.word(), "what": engine.about() }));
+    let engines = json!(engines);
     let adapters = adapters();
     if json {
         let adapters: Vec<Value> = adapters.iter().map(adapter_facts).collect();

@@ -23,8 +23,8 @@ use thiserror::Error;
 use crate::advice::estimate::memory;
 use crate::checkpoint::CheckpointError;
 use crate::conformance::files::FilesError;
-use crate::engine::{Coupled, DeviceError, StartError, open};
-use crate::kernel::{Gpu, KernelError, adapters};
+use crate::engine::{Coupled, DeviceError, EngineName, StartError, open};
+use crate::kernel::{KernelError, adapters};
 use crate::output::folder::FolderError;
 use crate::run::RunError;
 use crate::scene::{EngineKind, Scene, SceneError};
@@ -155,20 +155,19 @@ fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Coupled, Command
     let refused = |problem: String| -> CommandError {
         SceneError::whole_file(&name, problem, "change the scene").into()
     };
-    let wants_kernel = wants_kernel(scene);
-    if !wants_kernel {
-        if let (EngineKind::Reference, Some(name)) = (scene.engine, &scene.adapter) {
+    let engine = engine_of(scene);
+    if !engine.needs_device() {
+        if let (false, Some(name)) = (scene.engine == EngineKind::Auto, &scene.adapter) {
             tell(&format!(
-                "engine.adapter = \"{name}\" of the scene is not used: engine reference computes on the \
-                 processor"
+                "engine.adapter = \"{name}\" of the scene is not used: engine {} computes on the processor",
+                engine.word()
             ));
         }
         if let Some((problem, remedy)) = memory::shortage(scene) {
             return Err(SceneError::whole_file(&name, problem, remedy).into());
         }
     }
-    let gpu = if wants_kernel { Some(Gpu::open(scene.adapter.as_deref())?) } else { None };
-    open(scene, gpu.as_ref(), profiled).map_err(|error| match error {
+    open(engine, scene, None, profiled).map_err(|error| match error {
         StartError::Device(error) => error.into(),
         error => refused(error.to_string()),
     })
@@ -176,28 +175,22 @@ fn engine(scene: &Scene, file: &Path, profiled: bool) -> Result<Coupled, Command
 
 /// The engine as scenes name it.
 fn kind_of(engine: &Coupled) -> EngineKind {
-    match engine.name() {
-        "wgpu" => EngineKind::Wgpu,
-        _ => EngineKind::Reference,
-    }
+    EngineName::from_word(engine.name()).map_or(EngineKind::default(), EngineName::kind)
 }
 
-/// Whether the kernel is to compute a scene. `auto` takes a software adapter for none: that shares the
+/// The engine that is to compute a scene. `auto` takes a software adapter for none: that shares the
 /// processor with the oracle and has half its digits, which a user should ask for by name.
-fn wants_kernel(scene: &Scene) -> bool {
-    match scene.engine {
-        EngineKind::Reference => false,
-        EngineKind::Wgpu => true,
-        EngineKind::Auto => {
-            let found = adapters();
-            let is_there = scene.adapter.is_some() || found.iter().any(|a| !a.is_software());
-            if !is_there {
-                let why = if found.is_empty() { "no adapter" } else { "only a software adapter" };
-                tell(&format!("engine auto: {why}, so the oracle (reference) computes"));
-            }
-            is_there && !found.is_empty()
-        }
+fn engine_of(scene: &Scene) -> EngineName {
+    if let Some(named) = EngineName::of(scene.engine) {
+        return named;
     }
+    let found = adapters();
+    let is_there = scene.adapter.is_some() || found.iter().any(|a| !a.is_software());
+    if !is_there {
+        let why = if found.is_empty() { "no adapter" } else { "only a software adapter" };
+        tell(&format!("engine auto: {why}, so the oracle (reference) computes"));
+    }
+    if is_there && !found.is_empty() { EngineName::Wgpu } else { EngineName::Reference }
 }
 
 /// The changes of a scene that `--engine` and `--adapter` stand for: they become part of the scene that
@@ -207,10 +200,12 @@ pub fn engine_changes(
     engine: Option<&str>,
     adapter: Option<&str>,
 ) -> Result<Vec<String>, CommandError> {
-    if let (Some("reference"), Some(name)) = (engine, adapter) {
+    let named = engine.and_then(EngineName::from_word);
+    if let (Some(engine), Some(name)) = (named.filter(|engine| !engine.needs_device()), adapter) {
         return Err(CommandError::Usage(format!(
-            "--adapter {name}: --engine reference computes on the processor and takes no adapter; \
-             leave one of them out, or take --engine wgpu"
+            "--adapter {name}: --engine {} computes on the processor and takes no adapter; \
+             leave one of them out, or take --engine wgpu",
+            engine.word()
         )));
     }
     let engine = engine.or(adapter.map(|_| "wgpu"));

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::plan_text::{print, to_json, words};
 use super::say::say;
-use super::{CommandError, engine, engine_changes, wants_kernel};
+use super::{CommandError, engine, engine_changes, engine_of};
 use crate::advice::estimate::calibrate;
 use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::{
@@ -20,6 +20,7 @@ use crate::advice::plan::write::text;
 use crate::advice::tradeoff::cost::mrt_over_srt;
 use crate::advice::tradeoff::model::{LEAST_ERROR, Models};
 use crate::advice::tradeoff::support;
+use crate::engine::EngineName;
 use crate::kernel::adapters;
 use crate::output::atomic;
 use crate::quote;
@@ -88,7 +89,7 @@ const CALIBRATION: Duration = Duration::from_millis(400);
 pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
     // What was left open is what a run would use.
-    let engine = if wants_kernel(&scene) { EngineKind::Wgpu } else { EngineKind::Reference };
+    let engine = engine_of(&scene).kind();
     let scene = Scene { engine, ..scene };
     let name = request.scene.display();
     let facts = Facts::of(&scene)?
@@ -142,8 +143,7 @@ fn now(
     let none = |why: &str| Outside { why: why.to_owned(), nearest: None, may_be_worse: true };
     let collision = Preset::of(&scene.setup.collision)
         .ok_or_else(|| none("no run of the evidence has its relaxation rates"))?;
-    let kernel = scene.engine == EngineKind::Wgpu;
-    let engine = if kernel { "wgpu" } else { "reference" };
+    let engine = EngineName::of(scene.engine).unwrap_or(EngineName::Reference).word();
     let speed = speeds.iter().find(|speed| speed.engine == engine);
     as_it_is(facts, models, collision, speed.ok_or_else(|| none("its engine is not there"))?)
 }

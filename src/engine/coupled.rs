@@ -7,11 +7,12 @@
 use std::cell::RefCell;
 
 use psmrt_reference::coupling::{CoupledStop, FreeGrains, Gravity, with_displaced};
+use psmrt_reference::directions::Q;
 use psmrt_reference::drive::Drive;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::guard::Guard;
-use psmrt_reference::lattice::Vec3;
+use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
@@ -222,6 +223,12 @@ impl Coupled {
             solid_fraction: f64::NAN,
         };
         self.observed(self.fluid.cells(block)).unwrap_or_else(|| vec![broken; block.cell_count()])
+    }
+
+    /// The populations of the cells of a block before their next collision, in the same order.
+    pub fn populations(&self, block: Block) -> Vec<Populations> {
+        let found = self.observed(self.fluid.populations(block));
+        found.unwrap_or_else(|| vec![[f64::NAN; Q]; block.cell_count()])
     }
 
     /// The solids, where they are now.

@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 
 use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Guard, Sight};
-use psmrt_reference::lattice::Vec3;
+use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
@@ -82,6 +82,10 @@ pub trait FluidEngine: fmt::Debug + Send {
 
     /// The state of the cells of a block, x fastest, z slowest.
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError>;
+
+    /// The populations of the cells of a block before their next collision, in the same order: what engines are
+    /// compared by.
+    fn populations(&self, block: Block) -> Result<Vec<Populations>, DeviceError>;
 
     /// Keeps from now on where the time goes, which may cost some, if it can.
     fn keep_times(&mut self) {}

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `fluid.rs` | [`FluidEngine`]: what is asked of whatever computes the fluid |
 //! | `coupled.rs`, `state.rs` | [`Coupled`]: a fluid engine with what is the same above every one: free grains, prescribed motion, guard, profile, saved state |
-//! | `name.rs`, `open.rs` | [`EngineName`]; [`open`]: the engine of a scene |
+//! | `name.rs`, `open.rs` | [`EngineName`]; [`open`]: the engine of a scene by its name; the list of engines |
 //! | `reference.rs`, `wgpu.rs` | the oracle and the kernel as fluid engines |
 //! | `free_state.rs`, `bytes.rs` | free grains, and numbers, as bytes |
 
@@ -32,7 +32,7 @@ pub use block::Block;
 pub use coupled::{Coupled, Profile};
 pub use fluid::{BoxMeans, CellState, FluidEngine};
 pub use name::EngineName;
-pub use open::{from_populations, open, starting_from};
+pub use open::{Start, from_populations, open, starting_from};
 pub use reference::ReferenceEngine;
 pub use wgpu::KernelEngine;
 

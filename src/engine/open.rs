@@ -1,4 +1,4 @@
-//! The engine of a scene: on the oracle, or on the kernel where a device is given.
+//! The engine of a scene, by its name.
 
 use std::sync::Arc;
 
@@ -6,15 +6,59 @@ use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 
 use super::coupled::{Coupled, Grains};
-use super::{FluidEngine, KernelEngine, ReferenceEngine, StartError};
+use super::{DeviceError, EngineName, FluidEngine, KernelEngine, ReferenceEngine, StartError};
 use crate::kernel::Gpu;
 use crate::scene::{FreePart, Scene};
 
-/// A scene at its start. With `profiled` it keeps where its time goes, if it can. Errors if the engine cannot
-/// take the scene.
-pub fn open(scene: &Scene, gpu: Option<&Arc<Gpu>>, profiled: bool) -> Result<Coupled, StartError> {
+/// What a fluid starts from.
+pub enum Start<'a> {
+    /// Density and velocity at each cell centre, in equilibrium. Whether its solids are free to move: the cells that
+    /// they cover then start with them even if all are at rest.
+    State {
+        /// Density and velocity at a cell centre.
+        state: &'a dyn Fn(Vec3) -> (f64, Vec3),
+        /// Whether the solids are free.
+        is_free: bool,
+    },
+    /// Populations, one set per cell.
+    Populations(&'a [Populations]),
+}
+
+/// The list of engines: each makes the fluid of a set-up that has passed its checks. `gpu`: a device that is open
+/// already, which need not be opened again.
+fn fluid(
+    name: EngineName,
+    setup: Setup,
+    gpu: Option<&Arc<Gpu>>,
+    start: &Start<'_>,
+) -> Result<Box<dyn FluidEngine>, StartError> {
+    Ok(match name {
+        EngineName::Reference => Box::new(ReferenceEngine::start(setup, start)?),
+        EngineName::Wgpu => Box::new(KernelEngine::start(setup, &device(gpu, None)?, start)?),
+    })
+}
+
+/// The device, opened if it is not yet.
+fn device(gpu: Option<&Arc<Gpu>>, adapter: Option<&str>) -> Result<Arc<Gpu>, DeviceError> {
+    match gpu {
+        Some(gpu) => Ok(Arc::clone(gpu)),
+        None => Ok(Gpu::open(adapter)?),
+    }
+}
+
+/// A scene at its start on the engine `name`. Where that computes on a device it is `gpu`, if given, else the scene's
+/// adapter is opened; others leave it aside. With `profiled` it keeps where its time goes, if it can. Errors if the
+/// engine cannot take the scene.
+pub fn open(
+    name: EngineName,
+    scene: &Scene,
+    gpu: Option<&Arc<Gpu>>,
+    profiled: bool,
+) -> Result<Coupled, StartError> {
     let velocity = scene.initial_velocity;
-    let mut engine = starting_from(&scene.setup, scene.free.as_ref(), gpu, |_| (1.0, velocity))?;
+    let gpu = if name.needs_device() { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
+    let state = |_| (1.0, velocity);
+    let mut engine = starting_from(name, &scene.setup, scene.free.as_ref(), gpu.as_ref(), state)?;
     if profiled {
         engine.keep_profile();
     }
@@ -22,8 +66,10 @@ pub fn open(scene: &Scene, gpu: Option<&Arc<Gpu>>, profiled: bool) -> Result<Cou
 }
 
 /// A fluid whose density and velocity at each cell centre are `state(centre)`; `free` says how the grains
-/// move, if some are free: they are the solids then. Errors if the engine cannot take it.
+/// move, if some are free: they are the solids then. `gpu` as for [`open`], but any adapter will do. Errors if the
+/// engine cannot take it.
 pub fn starting_from(
+    name: EngineName,
     setup: &Setup,
     free: Option<&FreePart>,
     gpu: Option<&Arc<Gpu>>,
@@ -41,28 +87,21 @@ pub fn starting_from(
         }
         None => None,
     };
-    let is_free = grains.is_some();
-    let fluid: Box<dyn FluidEngine> = match gpu {
-        None => Box::new(ReferenceEngine::starting_from(setup, is_free, state)?),
-        Some(gpu) => Box::new(KernelEngine::starting_from(setup, is_free, gpu, state)?),
-    };
-    Ok(Coupled::new(fluid, grains))
+    let start = Start::State { state: &state, is_free: grains.is_some() };
+    Ok(Coupled::new(fluid(name, setup, gpu, &start)?, grains))
 }
 
-/// A fluid with the given populations, one set per cell, and no free grains. Errors if the engine cannot take
-/// it.
+/// A fluid with the given populations, one set per cell, and no free grains. `gpu` as for [`starting_from`]. Errors if
+/// the engine cannot take it.
 ///
 /// # Panics
 /// If there are not as many sets as cells: a mistake in the calling code.
 pub fn from_populations(
+    name: EngineName,
     setup: &Setup,
     gpu: Option<&Arc<Gpu>>,
-    f: Vec<Populations>,
+    f: &[Populations],
 ) -> Result<Coupled, StartError> {
     setup.check()?;
-    let fluid: Box<dyn FluidEngine> = match gpu {
-        None => Box::new(ReferenceEngine::from_populations(setup.clone(), f)?),
-        Some(gpu) => Box::new(KernelEngine::from_populations(setup.clone(), gpu, &f)?),
-    };
-    Ok(Coupled::of_fluid(fluid))
+    Ok(Coupled::of_fluid(fluid(name, setup.clone(), gpu, &Start::Populations(f))?))
 }

@@ -12,7 +12,7 @@ use psmrt_reference::solids::{Load, Solid};
 use psmrt_reference::solver::{Memory, Solver};
 
 use super::bytes::{put_real, real};
-use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, StartError};
+use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, Start, StartError};
 use crate::scene::Scene;
 
 /// Plain double precision on the CPU.
@@ -25,31 +25,23 @@ impl ReferenceEngine {
     /// The fluid of a scene at its start, with solids that are not free. Errors if the oracle refuses the
     /// set-up.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        Self::starting_from(scene.setup.clone(), false, |_| (1.0, scene.initial_velocity))
+        let state = |_| (1.0, scene.initial_velocity);
+        Self::start(scene.setup.clone(), &Start::State { state: &state, is_free: false })
     }
 
-    /// A fluid whose density and velocity at each cell centre are `state(centre)`; `is_free`: its solids are
-    /// free to move, so that the cells that they cover start with them even if all are at rest. Errors if the
-    /// oracle refuses the set-up.
-    pub fn starting_from(
-        setup: Setup,
-        is_free: bool,
-        state: impl Fn(Vec3) -> (f64, Vec3),
-    ) -> Result<Self, SetupError> {
-        let solver = if is_free {
-            Solver::starting_with_free_solids(setup, state)?
-        } else {
-            Solver::starting_from(setup, state)?
-        };
-        Ok(ReferenceEngine { solver })
-    }
-
-    /// A fluid with the given populations, one set per cell. Errors if the oracle refuses the set-up.
+    /// A fluid at its start. Errors if the oracle refuses the set-up.
     ///
     /// # Panics
-    /// If there are not as many sets as cells: a mistake in the calling code.
-    pub fn from_populations(setup: Setup, f: Vec<Populations>) -> Result<Self, SetupError> {
-        Ok(ReferenceEngine { solver: Solver::from_populations(setup, f)? })
+    /// If there are not as many sets of populations as cells: a mistake in the calling code.
+    pub fn start(setup: Setup, start: &Start<'_>) -> Result<Self, SetupError> {
+        let solver = match *start {
+            Start::State { state, is_free: true } => {
+                Solver::starting_with_free_solids(setup, state)?
+            }
+            Start::State { state, is_free: false } => Solver::starting_from(setup, state)?,
+            Start::Populations(f) => Solver::from_populations(setup, f.to_vec())?,
+        };
+        Ok(ReferenceEngine { solver })
     }
 
     /// Replaces every population, that of direction `a` by `change(f, a)`. Errors if the oracle refuses the
@@ -133,6 +125,11 @@ impl FluidEngine for ReferenceEngine {
             }
         };
         Ok(block.numbers(self.solver.domain()).into_iter().map(state).collect())
+    }
+
+    fn populations(&self, block: Block) -> Result<Vec<Populations>, DeviceError> {
+        let f = self.solver.populations();
+        Ok(block.numbers(self.solver.domain()).into_iter().map(|cell| f[cell]).collect())
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {

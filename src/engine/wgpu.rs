@@ -6,12 +6,12 @@ use std::sync::Arc;
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Guard, Sight};
-use psmrt_reference::lattice::Vec3;
+use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
 use super::bytes::{put_whole, whole};
-use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, StartError};
+use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, Start, StartError};
 use crate::kernel::{Gpu, Kernel, KernelError, KernelTimes, Summary};
 use crate::machine::Spent;
 
@@ -29,28 +29,17 @@ pub struct KernelEngine {
 }
 
 impl KernelEngine {
-    /// A fluid whose density and velocity at each cell centre are `state(centre)`, in a set-up that has passed
-    /// its checks; `is_free`: its solids are free to move. Errors if the device cannot hold it.
-    pub fn starting_from(
-        setup: Setup,
-        is_free: bool,
-        gpu: &Arc<Gpu>,
-        state: impl Fn(Vec3) -> (f64, Vec3),
-    ) -> Result<Self, DeviceError> {
+    /// A fluid at its start, in a set-up that has passed its checks. Errors if the device cannot hold it.
+    ///
+    /// # Panics
+    /// If there are not as many sets of populations as cells: a mistake in the calling code.
+    pub fn start(setup: Setup, gpu: &Arc<Gpu>, start: &Start<'_>) -> Result<Self, DeviceError> {
+        let is_free = matches!(start, Start::State { is_free: true, .. });
         let mut kernel = Kernel::new(gpu, setup, is_free)?;
-        kernel.set_state(state)?;
-        Ok(KernelEngine { kernel, keeps_times: false })
-    }
-
-    /// A fluid with the given populations, one set per cell, in a set-up that has passed its checks. Errors if
-    /// the device cannot hold it.
-    pub fn from_populations(
-        setup: Setup,
-        gpu: &Arc<Gpu>,
-        f: &[[f64; Q]],
-    ) -> Result<Self, DeviceError> {
-        let mut kernel = Kernel::new(gpu, setup, false)?;
-        kernel.set_populations(f)?;
+        match *start {
+            Start::State { state, .. } => kernel.set_state(state)?,
+            Start::Populations(f) => kernel.set_populations(f)?,
+        }
         Ok(KernelEngine { kernel, keeps_times: false })
     }
 }
@@ -121,6 +110,10 @@ impl FluidEngine for KernelEngine {
             CellState { density, velocity, solid_fraction }
         };
         Ok(found.into_iter().map(state).collect())
+    }
+
+    fn populations(&self, block: Block) -> Result<Vec<Populations>, DeviceError> {
+        Ok(self.kernel.populations(&block.numbers(&self.setup().domain))?)
     }
 
     fn keep_times(&mut self) {

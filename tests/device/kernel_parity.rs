@@ -1,9 +1,9 @@
-//! The kernel against the oracle, cell by cell: one step of random states.
+//! Each engine against the oracle, cell by cell: one step of random states.
 //!
 //! Both start from the same populations, rounded to what single precision holds of them less their
 //! weights. After one step the error of a population, divided by single precision's epsilon times the
 //! gauge of its cell, must stay below 16; the gauge is the sum of the absolute values of what the
-//! kernel adds up there: the populations less their weights before and after the collision.
+//! engine adds up there: the populations less their weights before and after the collision.
 
 use crate::common::Budget;
 use crate::common::collisions::dhumieres;
@@ -12,14 +12,15 @@ use crate::parity::{
     CELLS, G, OPERATORS, WEIGHTINGS, collisions, error_of_one_step, given_fractions, mixed_faces,
     random_state,
 };
-use crate::trials::Claim;
+use crate::trials::EngineClaim;
+use psmrt::engine::EngineName;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::setup::{Setup, SolidPhase};
 
 /// The bound of one step, see the top of this file.
 const BOUND: f64 = 16.0;
 
-fn fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates() {
+fn fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates(engine: EngineName) {
     let mut budget = Budget::kernel(100_000);
     let mut random = Random(1);
     for (name, collision) in collisions() {
@@ -28,7 +29,7 @@ fn fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates() {
             let mut setup = Setup::fluid(domain, collision);
             setup.body_force = force;
             let start = random_state(&mut random, 120);
-            let error = error_of_one_step(&mut budget, &setup, &start);
+            let error = error_of_one_step(engine, &mut budget, &setup, &start);
             println!("{name}, force {force:?}: {error:.2}");
             assert!(
                 error < BOUND,
@@ -39,7 +40,9 @@ fn fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates() {
     }
 }
 
-fn solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions() {
+fn solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_fractions(
+    engine: EngineName,
+) {
     let mut budget = Budget::kernel(100_000);
     let mut random = Random(2);
     for (name, collision) in collisions() {
@@ -52,7 +55,7 @@ fn solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_
                 let mut setup = Setup::fluid(domain, collision).with_solids(phase);
                 setup.body_force = force;
                 let start = random_state(&mut random, 120);
-                let error = error_of_one_step(&mut budget, &setup, &start);
+                let error = error_of_one_step(engine, &mut budget, &setup, &start);
                 println!("{name}, {weighting:?}, {operator:?}, moving {moving}: {error:.2}");
                 assert!(
                     error < BOUND,
@@ -65,7 +68,7 @@ fn solid_part_is_that_of_the_oracle_for_every_weighting_and_operator_with_given_
     }
 }
 
-fn every_face_and_edge_lets_in_what_the_oracles_does() {
+fn every_face_and_edge_lets_in_what_the_oracles_does(engine: EngineName) {
     let mut budget = Budget::kernel(100_000);
     let mut random = Random(3);
     for (case, faces) in mixed_faces().into_iter().enumerate() {
@@ -74,7 +77,7 @@ fn every_face_and_edge_lets_in_what_the_oracles_does() {
             let setup = Setup::fluid(domain, dhumieres(0.7));
             let start = random_state(&mut random, setup.domain.cell_count());
             // Two steps: the first collides only, the faces come in at what is seen after it.
-            let error = error_of_one_step(&mut budget, &setup, &start);
+            let error = error_of_one_step(engine, &mut budget, &setup, &start);
             println!("faces {case}, {cells:?}: {error:.2}");
             assert!(
                 error < BOUND,
@@ -87,7 +90,7 @@ fn every_face_and_edge_lets_in_what_the_oracles_does() {
 }
 
 /// What is claimed here.
-pub const CLAIMS: &[Claim] = &[
+pub const CLAIMS: &[EngineClaim] = &[
     (
         "fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates",
         fluid_collides_and_streams_as_in_the_oracle_with_every_set_of_rates,

@@ -1,12 +1,12 @@
-//! The kernel against exact solutions and published tables, without the oracle.
+//! Each engine against exact solutions and published tables, without the oracle.
 
 use std::f64::consts::PI;
 
 use crate::common::collisions::{dhumieres, srt};
 use crate::common::random::Random;
 use crate::common::{Budget, golden_rows, observed_order};
-use crate::trials::{self, Claim};
-use psmrt::kernel::Kernel;
+use crate::trials::{self, EngineClaim};
+use psmrt::engine::{Block, Coupled, EngineName, from_populations, starting_from};
 use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::{C, Q, number_of};
 use psmrt_reference::domain::{Domain, Face, Faces};
@@ -14,18 +14,27 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 
-fn kernel(setup: Setup) -> Kernel {
-    Kernel::new(&trials::gpu().unwrap(), setup, false).unwrap()
+/// A fluid of density 1 that moves with `u` everywhere.
+fn fluid(engine: EngineName, setup: &Setup, u: Vec3) -> Coupled {
+    let gpu = trials::device_of(engine);
+    starting_from(engine, setup, None, gpu.as_ref(), |_| (1.0, u)).unwrap()
 }
 
-/// Velocity of each cell, `(j + G/2)/rho`.
-fn velocities(kernel: &Kernel) -> Vec<Vec3> {
-    let all: Vec<usize> = (0..kernel.setup().domain.cell_count()).collect();
-    let g = kernel.setup().body_force.unwrap_or_else(Vec3::zeros);
-    let momentum =
-        |f: &[f64; Q]| -> Vec3 { (0..Q).map(|a| f[a] * Vec3::from(C[a].map(f64::from))).sum() };
-    let found = kernel.populations(&all).unwrap();
-    found.iter().map(|f| (momentum(f) + 0.5 * g) / f.iter().sum::<f64>()).collect()
+/// A fluid with populations of its own.
+fn fluid_of(engine: EngineName, setup: &Setup, f: &[[f64; Q]]) -> Coupled {
+    from_populations(engine, setup, trials::device_of(engine).as_ref(), f).unwrap()
+}
+
+/// Makes steps.
+fn advance(budget: &mut Budget, engine: &mut Coupled, steps: u64) {
+    budget.spend(steps * engine.setup().domain.cell_count() as u64);
+    engine.step(steps).unwrap();
+}
+
+/// Velocity of each cell.
+fn velocities(engine: &Coupled) -> Vec<Vec3> {
+    let all = Block::whole(&engine.setup().domain);
+    engine.cells(all).into_iter().map(|cell| cell.velocity).collect()
 }
 
 /// Populations of a fluid of density 1 with the velocity `u(x)`, second order in u.
@@ -46,7 +55,7 @@ fn populations(domain: &Domain, u: impl Fn(Vec3) -> Vec3) -> Vec<[f64; Q]> {
         .collect()
 }
 
-fn poiseuille_flow_converges_with_second_order_to_the_exact_profile() {
+fn poiseuille_flow_converges_with_second_order_to_the_exact_profile(engine: EngineName) {
     let mut budget = Budget::kernel(300_000);
     for (name, collision) in [("SRT", srt(0.8)), ("MRT", dhumieres(0.8))] {
         let nu = (0.8 - 0.5) / 3.0;
@@ -59,11 +68,11 @@ fn poiseuille_flow_converges_with_second_order_to_the_exact_profile() {
             let domain = Domain::new([1, usize::try_from(width).unwrap(), 1], faces).unwrap();
             let setup = Setup::fluid(domain, collision).with_body_force(Vec3::new(g, 0.0, 0.0));
             let exact = |y: f64| g / (2.0 * nu) * y * (h - y);
-            let mut kernel = kernel(setup);
+            let mut fluid = fluid(engine, &setup, Vec3::zeros());
             // The slowest mode falls by e in H²/(π² ν) steps: 20 of those leave 2e-9.
             let steps = (1_u32..).find(|&n| f64::from(n) >= 20.0 * h * h / (PI * PI * nu)).unwrap();
-            budget.advance(&mut kernel, steps.into());
-            let squares = velocities(&kernel).into_iter().zip(0_u32..);
+            advance(&mut budget, &mut fluid, steps.into());
+            let squares = velocities(&fluid).into_iter().zip(0_u32..);
             let squares = squares.map(|(u, i)| (u.x - exact(f64::from(i) + 0.5)).powi(2));
             (1.0 / h, (squares.sum::<f64>() / h).sqrt() / top)
         });
@@ -76,22 +85,21 @@ fn poiseuille_flow_converges_with_second_order_to_the_exact_profile() {
     }
 }
 
-fn shear_wave_decays_with_the_viscosity_of_tau() {
+fn shear_wave_decays_with_the_viscosity_of_tau(engine: EngineName) {
     let mut budget = Budget::kernel(200_000);
     for (tau, collision) in [(0.6, srt(0.6)), (0.6, dhumieres(0.6)), (1.2, dhumieres(1.2))] {
         let domain = Domain::new([1, 1, 32], Faces::PERIODIC).unwrap();
         let k = 2.0 * PI / 32.0;
         let start = populations(&domain, |x| Vec3::new(0.02 * (k * x.z).cos(), 0.0, 0.0));
-        let mut kernel = kernel(Setup::fluid(domain, collision));
-        kernel.set_populations(&start).unwrap();
-        let amplitude = |kernel: &Kernel| -> f64 {
-            let wave = velocities(kernel).into_iter().zip(0_u32..);
+        let mut fluid = fluid_of(engine, &Setup::fluid(domain, collision), &start);
+        let amplitude = |fluid: &Coupled| -> f64 {
+            let wave = velocities(fluid).into_iter().zip(0_u32..);
             wave.map(|(u, i)| u.x * (k * (f64::from(i) + 0.5)).cos()).sum::<f64>() / 16.0
         };
-        budget.advance(&mut kernel, 100);
-        let before = amplitude(&kernel);
-        budget.advance(&mut kernel, 300);
-        let nu = (before / amplitude(&kernel)).ln() / (300.0 * k * k);
+        advance(&mut budget, &mut fluid, 100);
+        let before = amplitude(&fluid);
+        advance(&mut budget, &mut fluid, 300);
+        let nu = (before / amplitude(&fluid)).ln() / (300.0 * k * k);
         // ν_eff = ν (1 + C k²): `tests/oracle/viscosity.rs` has C; with σ = 1/s - 1/2 along an axis
         // C = 1/12 + σ²/3 - σ (σ_q + 3 σ_m)/6.
         let sigma = tau - 0.5;
@@ -110,7 +118,7 @@ fn shear_wave_decays_with_the_viscosity_of_tau() {
 
 /// `K` of a simple cubic array at half the touching radius, and the relative change of the force per
 /// step when it was taken for steady.
-fn sphere_array(budget: &mut Budget, side: usize) -> f64 {
+fn sphere_array(engine: EngineName, budget: &mut Budget, side: usize) -> f64 {
     // A quarter of the cell between the mirror planes through the centres.
     let slip = [Face::FreeSlip; 2];
     let faces = Faces { y: slip, z: slip, ..Faces::PERIODIC };
@@ -126,22 +134,21 @@ fn sphere_array(budget: &mut Budget, side: usize) -> f64 {
     let setup = Setup::fluid(domain, dhumieres(0.8))
         .with_body_force(Vec3::new(g, 0.0, 0.0))
         .with_solids(phase);
-    let mut kernel = kernel(setup);
-    kernel.set_velocity(Vec3::new(u, 0.0, 0.0)).unwrap();
+    let mut fluid = fluid(engine, &setup, Vec3::new(u, 0.0, 0.0));
     // The slowest time of the array is V/(6π ν a K): ten of those leave 5e-5.
     let steps = (1_u32..).find(|&n| f64::from(n) >= 10.0 * volume / (stokes * 2.842)).unwrap();
-    budget.advance(&mut kernel, steps.into());
-    let summary = kernel.summary().unwrap();
-    g * volume / (stokes * summary.mass_flux.x / summary.density)
+    advance(budget, &mut fluid, steps.into());
+    let means = fluid.box_means();
+    g * volume / (stokes * means.mass_flux.x / means.density)
 }
 
-fn drag_of_a_sphere_array_converges_to_zick_and_homsy() {
+fn drag_of_a_sphere_array_converges_to_zick_and_homsy(engine: EngineName) {
     let mut budget = Budget::kernel(6_000_000);
     let rows = golden_rows("sphere_arrays/literature.csv");
     let row = rows.iter().find(|row| &row[0] == "SC" && &row[1] == "0.06544984695").unwrap();
     let exact: f64 = row[3].parse().unwrap();
-    let errors =
-        [8, 12, 16].map(|side| (1.0 / side as f64, sphere_array(&mut budget, side) / exact - 1.0));
+    let errors = [8, 12, 16]
+        .map(|side| (1.0 / side as f64, sphere_array(engine, &mut budget, side) / exact - 1.0));
     let order = observed_order(&errors);
     println!("errors of K: {errors:.5?}, order {order:.3}");
     // What PS leaves is of second order: the leak `x = 2.25 ν K/a²` of tests/oracle/sphere_arrays.rs, 0.04 at 8
@@ -154,18 +161,17 @@ fn drag_of_a_sphere_array_converges_to_zick_and_homsy() {
     assert!((order - 2.0).abs() < 0.4, "the error of the drag falls with order {order}, not 2");
 }
 
-fn mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps() {
+fn mass_and_momentum_drift_by_no_more_than_rounding_over_1e5_steps(engine: EngineName) {
     let mut budget = Budget::kernel(13_000_000);
     const STEPS: u32 = 100_000;
     let domain = Domain::new([8, 4, 4], Faces::PERIODIC).unwrap();
     let k = 2.0 * PI / 8.0;
     let stream = Vec3::new(0.02, -0.01, 0.03);
     let start = populations(&domain, |x| stream + Vec3::new(0.0, 0.03 * (k * x.x).sin(), 0.0));
-    let mut kernel = kernel(Setup::fluid(domain, dhumieres(0.6)));
-    kernel.set_populations(&start).unwrap();
-    let before = kernel.summary().unwrap();
-    budget.advance(&mut kernel, STEPS.into());
-    let after = kernel.summary().unwrap();
+    let mut fluid = fluid_of(engine, &Setup::fluid(domain, dhumieres(0.6)), &start);
+    let before = fluid.box_means();
+    advance(&mut budget, &mut fluid, STEPS.into());
+    let after = fluid.box_means();
     let mass = (after.density - before.density).abs();
     let momentum = (after.mass_flux - before.mass_flux).norm();
     println!("drift of mass {mass:.2e}, of momentum {momentum:.2e}, per cell");
@@ -201,7 +207,7 @@ impl Symmetry {
     }
 }
 
-fn turned_and_mirrored_flows_are_the_same_flow() {
+fn turned_and_mirrored_flows_are_the_same_flow(engine: EngineName) {
     let mut budget = Budget::kernel(300_000);
     const SIDE: usize = 7;
     let mut random = Random(5);
@@ -233,12 +239,12 @@ fn turned_and_mirrored_flows_are_the_same_flow() {
         for (cell, f) in start.iter().enumerate() {
             (0..Q).for_each(|a| turned[places[cell]][s.direction(a)] = f[a]);
         }
-        let mut kernel = kernel(setup);
-        kernel.set_populations(&turned).unwrap();
-        budget.advance(&mut kernel, 5);
-        let found = kernel.populations(&places).unwrap();
+        let mut fluid = fluid_of(engine, &setup, &turned);
+        advance(budget, &mut fluid, 5);
+        let found = fluid.populations(Block::whole(&setup.domain));
+        let found: Vec<[f64; Q]> = places.iter().map(|&cell| found[cell]).collect();
         let back = |f: &[f64; Q]| -> [f64; Q] { std::array::from_fn(|a| f[s.direction(a)]) };
-        (found.iter().map(back).collect::<Vec<_>>(), kernel.loads().unwrap()[0].force)
+        (found.iter().map(back).collect::<Vec<_>>(), fluid.loads()[0].force)
     };
     let plain = Symmetry { from: [0, 1, 2], sign: [1, 1, 1] };
     let (expected, force) = run(&mut budget, plain);
@@ -267,7 +273,7 @@ fn turned_and_mirrored_flows_are_the_same_flow() {
     }
 }
 
-fn pressure_of_a_non_reflecting_face_is_held_after_twenty_of_a_long_memory() {
+fn pressure_of_a_non_reflecting_face_is_held_after_twenty_of_a_long_memory(engine: EngineName) {
     // From rest: the velocity at the face jumps to the inlet's, and its slow mean follows over 1000 steps. A mean in
     // single precision would stop where a step takes less than half its last digit, (u - m)/T = 2e-9, and leave the
     // density off by √3 · 2e-9 T = 3e-6. Twenty memories leave exp(-20) of the start.
@@ -276,11 +282,9 @@ fn pressure_of_a_non_reflecting_face_is_held_after_twenty_of_a_long_memory() {
     let inlet = Face::VelocityInlet { velocity: Vec3::new(0.05, 0.0, 0.0) };
     let outlet = Face::NonReflectingPressure { density: 1.0, memory: T };
     let domain = Domain::new([8, 1, 1], Faces { x: [inlet, outlet], ..Faces::PERIODIC }).unwrap();
-    let mut kernel = kernel(Setup::fluid(domain, dhumieres(0.8)));
-    for _ in 0..20 {
-        budget.advance(&mut kernel, 1000);
-    }
-    let off = (kernel.summary().unwrap().density - 1.0).abs();
+    let mut fluid = fluid(engine, &Setup::fluid(domain, dhumieres(0.8)), Vec3::zeros());
+    advance(&mut budget, &mut fluid, 20_000);
+    let off = (fluid.box_means().density - 1.0).abs();
     println!("mean density off by {off:.1e}");
     // Why 1e-6: an outlet's populations are rounded to 6e-8 of what they are beyond their weights, ten of them.
     assert!(
@@ -290,7 +294,7 @@ fn pressure_of_a_non_reflecting_face_is_held_after_twenty_of_a_long_memory() {
 }
 
 /// What is claimed here.
-pub const CLAIMS: &[Claim] = &[
+pub const CLAIMS: &[EngineClaim] = &[
     (
         "poiseuille_flow_converges_with_second_order_to_the_exact_profile",
         poiseuille_flow_converges_with_second_order_to_the_exact_profile,

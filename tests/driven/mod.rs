@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use psmrt::engine::{Block, Coupled, starting_from};
+use psmrt::engine::{Block, Coupled, EngineName, starting_from};
 use psmrt::kernel::Gpu;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::drive::FaceValue;
@@ -86,14 +86,14 @@ impl Plates {
     }
 
     /// Largest error over a quarter of a period, one period after a start from the exact flow, over the largest velocity.
-    fn error(self, gpu: Option<&Arc<Gpu>>, budget: &mut Budget) -> f64 {
+    fn error(self, name: EngineName, gpu: Option<&Arc<Gpu>>, budget: &mut Budget) -> f64 {
         let periodic = [Face::Periodic; 2];
         let faces = Faces { x: periodic, y: [Face::wall(); 2], z: periodic };
         let setup =
             Setup::fluid(Domain::new([2, self.n, 1], faces).unwrap(), magic(TAU_OF_FLUID, 0.1875));
         let setup = setup.with_body_force(Vec3::zeros());
         let start = |at: Vec3| (1.0, Vec3::new(self.exact(at.y, 0.0), 0.0, 0.0));
-        let mut engine = starting_from(&setup, None, gpu, start).unwrap();
+        let mut engine = starting_from(name, &setup, None, gpu, start).unwrap();
         let (mut error, mut largest) = (0.0_f64, 0.0_f64);
         let mut t = 0.0;
         self.drive(&mut engine, t);
@@ -127,8 +127,8 @@ fn bound(n: usize) -> f64 {
     4.0 * WOMERSLEY * kappa * kappa / 24.0
 }
 
-fn follows(plates: Plates, gpu: Option<&Arc<Gpu>>, budget: &mut Budget) {
-    let error = plates.error(gpu, budget);
+fn follows(plates: Plates, engine: EngineName, gpu: Option<&Arc<Gpu>>, budget: &mut Budget) {
+    let error = plates.error(engine, gpu, budget);
     let bound = bound(plates.n);
     assert!(
         error < bound,
@@ -139,15 +139,20 @@ fn follows(plates: Plates, gpu: Option<&Arc<Gpu>>, budget: &mut Budget) {
 
 /// An engine that took the drive of the step before would hardly show here, being off by `ω`: the parity of the engines
 /// and the momentum that the force has given show it.
-pub fn a_force_that_oscillates_gives_womersleys_flow(gpu: Option<&Arc<Gpu>>, budget: &mut Budget) {
-    follows(Plates { n: 16, force: 2e-4, lid: 0.0 }, gpu, budget);
-}
-
-pub fn a_plate_that_oscillates_gives_the_flow_of_stokes_second_problem(
+pub fn a_force_that_oscillates_gives_womersleys_flow(
+    engine: EngineName,
     gpu: Option<&Arc<Gpu>>,
     budget: &mut Budget,
 ) {
-    follows(Plates { n: 16, force: 0.0, lid: 0.02 }, gpu, budget);
+    follows(Plates { n: 16, force: 2e-4, lid: 0.0 }, engine, gpu, budget);
+}
+
+pub fn a_plate_that_oscillates_gives_the_flow_of_stokes_second_problem(
+    engine: EngineName,
+    gpu: Option<&Arc<Gpu>>,
+    budget: &mut Budget,
+) {
+    follows(Plates { n: 16, force: 0.0, lid: 0.02 }, engine, gpu, budget);
 }
 
 /// The error of both together falls by four, within a sixth of it, where there are twice as many cells.
@@ -156,10 +161,11 @@ pub fn a_plate_that_oscillates_gives_the_flow_of_stokes_second_problem(
     reason = "asked of the oracle alone: single precision would take part of what is left"
 )]
 pub fn the_error_of_an_oscillating_flow_is_of_second_order(
+    engine: EngineName,
     gpu: Option<&Arc<Gpu>>,
     budget: &mut Budget,
 ) {
-    let error = [12, 24].map(|n| Plates { n, force: 2e-4, lid: -0.02 }.error(gpu, budget));
+    let error = [12, 24].map(|n| Plates { n, force: 2e-4, lid: -0.02 }.error(engine, gpu, budget));
     let ratio = error[0] / error[1];
     assert!(
         (3.4..4.7).contains(&ratio),
@@ -169,12 +175,13 @@ pub fn the_error_of_an_oscillating_flow_is_of_second_order(
 
 /// In a periodic domain momentum is what the force has given: `ρu(t) = Σ G(k) + G(t)/2` over the steps `k` before `t`.
 pub fn fluid_that_nothing_holds_back_has_the_momentum_that_a_changing_force_gave(
+    engine: EngineName,
     gpu: Option<&Arc<Gpu>>,
     budget: &mut Budget,
 ) {
     let domain = Domain::new([3, 4, 5], Faces::PERIODIC).unwrap();
     let setup = Setup::fluid(domain, magic(0.7, 0.25)).with_body_force(Vec3::zeros());
-    let mut engine = starting_from(&setup, None, gpu, |_| (1.0, Vec3::zeros())).unwrap();
+    let mut engine = starting_from(engine, &setup, None, gpu, |_| (1.0, Vec3::zeros())).unwrap();
     let force = |step: u32| {
         let phase = f64::from(step);
         1e-4 * Vec3::new(phase.sin(), (2.0 * phase).cos(), (0.7 * phase).sin())

@@ -1,10 +1,11 @@
-//! What the tests of the kernel against the oracle share, and `tests/validation/examples/kernel_parity.rs` with them.
+//! What the tests of the engines against the oracle share, and `tests/validation/examples/kernel_parity.rs` with them.
 
 #![allow(dead_code, reason = "each file that compares the two uses a part of this")]
 
 use std::sync::Arc;
 
-use psmrt::kernel::{Gpu, Kernel};
+use psmrt::engine::{Block, Coupled, EngineName, from_populations};
+use psmrt::kernel::Gpu;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::Q;
 use psmrt_reference::domain::{Domain, Face, Faces};
@@ -40,15 +41,20 @@ pub fn gauge(f: &Populations) -> f64 {
 /// Largest error after one step over epsilon times the largest gauge that met in it; of the populations
 /// and of the forces and torques on solids of given cells, whose gauges are the sums over their cells of
 /// what the loads are added up from: gauge and momentum of the solid, times the arm for a torque.
-pub fn error_of_one_step(budget: &mut Budget, setup: &Setup, start: &[Populations]) -> f64 {
+pub fn error_of_one_step(
+    engine: EngineName,
+    budget: &mut Budget,
+    setup: &Setup,
+    start: &[Populations],
+) -> f64 {
     let mut oracle = Solver::from_populations(setup.clone(), start.to_vec()).unwrap();
     budget.spend(start.len() as u64);
     oracle.step().unwrap();
-    let mut kernel = Kernel::new(&trials::gpu().unwrap(), setup.clone(), false).unwrap();
-    kernel.set_populations(start).unwrap();
-    budget.advance(&mut kernel, 1);
-    let all: Vec<usize> = (0..start.len()).collect();
-    let found = kernel.populations(&all).unwrap();
+    let gpu = trials::device_of(engine);
+    let mut engine = from_populations(engine, setup, gpu.as_ref(), start).unwrap();
+    budget.spend(start.len() as u64);
+    engine.step(1).unwrap();
+    let found = engine.populations(Block::whole(&setup.domain));
     let mut worst = 0.0_f64;
     for (cell, (found, expected)) in found.iter().zip(oracle.populations()).enumerate() {
         let place = setup.domain.coordinates(cell).map(|x| i64::try_from(x).unwrap());
@@ -68,7 +74,7 @@ pub fn error_of_one_step(budget: &mut Budget, setup: &Setup, start: &[Population
     }
     let phase = oracle.setup().solid_phase.as_ref();
     let solids = phase.map_or(&[][..], |phase| &phase.solids);
-    let loads = kernel.loads().unwrap();
+    let loads = engine.loads();
     for ((load, expected), solid) in loads.iter().zip(oracle.loads()).zip(solids) {
         let Shape::Cells { fractions } = &solid.shape else { continue };
         let (mut of_force, mut of_torque) = (0.0, 0.0);
@@ -155,7 +161,7 @@ pub fn mixed_faces() -> Vec<Faces> {
 /// A scene computed by both.
 pub struct Both {
     pub oracle: Solver,
-    pub kernel: Kernel,
+    pub engine: Coupled,
     largest_gauge: f64,
 }
 
@@ -174,30 +180,31 @@ impl Errors {
 }
 
 impl Both {
-    pub fn new(setup: &Setup, start: &[Populations]) -> Self {
-        Self::on(&trials::gpu().unwrap(), setup, start)
+    pub fn new(engine: EngineName, setup: &Setup, start: &[Populations]) -> Self {
+        Self::on(engine, trials::device_of(engine).as_ref(), setup, start)
     }
 
-    pub fn on(gpu: &Arc<Gpu>, setup: &Setup, start: &[Populations]) -> Self {
+    pub fn on(
+        engine: EngineName,
+        gpu: Option<&Arc<Gpu>>,
+        setup: &Setup,
+        start: &[Populations],
+    ) -> Self {
         let oracle = Solver::from_populations(setup.clone(), start.to_vec()).unwrap();
-        let mut kernel = Kernel::new(gpu, setup.clone(), false).unwrap();
-        kernel.set_populations(start).unwrap();
+        let engine = from_populations(engine, setup, gpu, start).unwrap();
         let largest_gauge = start.iter().map(gauge).fold(0.0, f64::max);
-        Both { oracle, kernel, largest_gauge }
+        Both { oracle, engine, largest_gauge }
     }
 
-    /// Makes `steps` steps, moving the solids of the kernel as the oracle moves its own.
+    /// Makes `steps` steps.
     pub fn run(&mut self, budget: &mut Budget, steps: u64) {
-        let solids =
-            |solver: &Solver| solver.setup().solid_phase.as_ref().map(|p| p.solids.clone());
-        let moves = solids(&self.oracle).is_some_and(|solids| solids.iter().any(Solid::moves));
+        let phase = self.oracle.setup().solid_phase.as_ref();
+        let moves = phase.is_some_and(|phase| phase.solids.iter().any(Solid::moves));
         let batch = if moves { 1 } else { 10.min(steps) };
         for _ in 0..steps / batch {
+            budget.spend(batch * self.oracle.domain().cell_count() as u64);
             self.oracle.run(batch).unwrap();
-            budget.advance(&mut self.kernel, batch);
-            if moves {
-                self.kernel.place_solids(solids(&self.oracle).unwrap()).unwrap();
-            }
+            self.engine.step(batch).unwrap();
             let now = self.oracle.populations().iter().map(gauge).fold(0.0, f64::max);
             self.largest_gauge = self.largest_gauge.max(now);
         }
@@ -207,14 +214,13 @@ impl Both {
         let steps = self.oracle.steps() as f64;
         let rounding = steps.sqrt() * f64::from(f32::EPSILON);
         let bound = 2.0 * (rounding + weight_error(self.oracle.setup())) * self.largest_gauge;
-        let all: Vec<usize> = (0..self.oracle.populations().len()).collect();
-        let found = self.kernel.populations(&all).unwrap();
+        let found = self.engine.populations(Block::whole(self.oracle.domain()));
         let pairs = found.iter().flatten().zip(self.oracle.populations().iter().flatten());
         let populations = pairs.map(|(f, o)| (f - o).abs()).fold(0.0, f64::max) / bound;
         let (mut forces, mut torques) = (0.0_f64, 0.0_f64);
         let phase = self.oracle.setup().solid_phase.as_ref();
         let solids = phase.map_or(&[][..], |phase| &phase.solids);
-        let loads = self.kernel.loads().unwrap();
+        let loads = self.engine.loads();
         for ((load, expected), solid) in loads.iter().zip(self.oracle.loads()).zip(solids) {
             let Shape::Sphere { radius } = solid.shape else { unreachable!("only spheres here") };
             // Cells that it touches, and how far they are at most.

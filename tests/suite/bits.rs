@@ -7,7 +7,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use psmrt::engine::{Block, open};
+use psmrt::engine::{Block, EngineName, open};
 use psmrt::scene::{FreePart, Scene};
 use psmrt_reference::coupling::CoupledSolver;
 use psmrt_reference::forcing::forced_velocity;
@@ -161,7 +161,7 @@ fn engine_reference_has_the_state_of_the_oracles_own_solvers_to_the_last_bit() {
         let steps = 20;
         budget.spend(2 * steps * cells as u64);
         let mut oracle = Oracle::new(&scene);
-        let mut engine = open(&scene, None, false).unwrap();
+        let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
         oracle.run(steps);
         // On another thread: an engine is not bound to the one that opened it.
         let stepped = move || engine.step(steps).map(|()| engine);

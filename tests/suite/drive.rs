@@ -4,7 +4,7 @@
 use crate::common::Budget;
 use crate::common::collisions::srt;
 use crate::driven;
-use psmrt::engine::{StartError, starting_from};
+use psmrt::engine::{EngineName, StartError, starting_from};
 use psmrt_reference::domain::{Domain, DomainError, Face, Faces};
 use psmrt_reference::drive::{Drive, DriveError, FaceValue};
 use psmrt_reference::lattice::Vec3;
@@ -13,25 +13,34 @@ use psmrt_reference::setup::{Setup, SetupError};
 #[test]
 fn a_force_that_oscillates_gives_womersleys_flow() {
     let mut budget = Budget::oracle(50_000);
-    driven::a_force_that_oscillates_gives_womersleys_flow(None, &mut budget);
+    driven::a_force_that_oscillates_gives_womersleys_flow(EngineName::Reference, None, &mut budget);
 }
 
 #[test]
 fn a_plate_that_oscillates_gives_the_flow_of_stokes_second_problem() {
     let mut budget = Budget::oracle(50_000);
-    driven::a_plate_that_oscillates_gives_the_flow_of_stokes_second_problem(None, &mut budget);
+    driven::a_plate_that_oscillates_gives_the_flow_of_stokes_second_problem(
+        EngineName::Reference,
+        None,
+        &mut budget,
+    );
 }
 
 #[test]
 fn the_error_of_an_oscillating_flow_is_of_second_order() {
     let mut budget = Budget::oracle(200_000);
-    driven::the_error_of_an_oscillating_flow_is_of_second_order(None, &mut budget);
+    driven::the_error_of_an_oscillating_flow_is_of_second_order(
+        EngineName::Reference,
+        None,
+        &mut budget,
+    );
 }
 
 #[test]
 fn fluid_that_nothing_holds_back_has_the_momentum_that_a_changing_force_gave() {
     let mut budget = Budget::oracle(4_000);
     driven::fluid_that_nothing_holds_back_has_the_momentum_that_a_changing_force_gave(
+        EngineName::Reference,
         None,
         &mut budget,
     );
@@ -48,7 +57,8 @@ fn channel() -> Setup {
 #[test]
 fn a_drive_that_the_set_up_cannot_take_is_refused_and_changes_nothing() {
     let given = channel();
-    let mut engine = starting_from(&given, None, None, |_| (1.0, Vec3::zeros())).unwrap();
+    let mut engine =
+        starting_from(EngineName::Reference, &given, None, None, |_| (1.0, Vec3::zeros())).unwrap();
     let drive = given.drive();
     let with = |axis: usize, side: usize, value| {
         let mut changed = drive.clone();

@@ -7,6 +7,7 @@ use psmrt::advice::plan::facts::{Facts, Limit};
 use psmrt::advice::plan::options::{PlanOption, Speed, cheapest, options};
 use psmrt::advice::plan::write::text;
 use psmrt::advice::tradeoff::model::Models;
+use psmrt::engine::{EngineName, open};
 use psmrt::scene::Scene;
 use psmrt_reference::collision::Preset;
 use std::fs;
@@ -198,7 +199,7 @@ fn planned_grain_settles_as_predicted() {
     let planned = Scene::from_bytes("planned", planned.into_bytes(), Path::new(""), &[]).unwrap();
     let cells = planned.setup.domain.cell_count() as u64;
     budget.spend(cells * planned.stop.steps);
-    let mut engine = psmrt::engine::open(&planned, None, false).unwrap();
+    let mut engine = open(EngineName::Reference, &planned, None, false).unwrap();
     engine.step(planned.stop.steps).unwrap();
     let free = engine.free_grains().unwrap();
     let si_velocity = -free.grains()[0].velocity.z * planned.units.si_velocity();

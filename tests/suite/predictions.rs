@@ -14,7 +14,7 @@ use psmrt::advice::plan::write::text;
 use psmrt::advice::tradeoff::evidence::{SolidMethod, committed_sweep};
 use psmrt::advice::tradeoff::evidence_low::low_points;
 use psmrt::advice::tradeoff::model::Models;
-use psmrt::engine::{Block, open};
+use psmrt::engine::{Block, EngineName, open};
 use psmrt::scene::Scene;
 use psmrt::table::Table;
 use psmrt_reference::collision::{Collision, Preset};
@@ -89,7 +89,7 @@ fn planned_ducts_err_as_promised() {
         let planned = text(&duct, Path::new(""), best, "").unwrap();
         let planned =
             Scene::from_bytes("planned", planned.into_bytes(), Path::new(""), &[]).unwrap();
-        let mut engine = open(&planned, None, false).unwrap();
+        let mut engine = open(EngineName::Reference, &planned, None, false).unwrap();
         // The slowest part falls by e in h²/(2 ν (π/2)²) = 0.05 s; 12 times that leaves 6e-6.
         let steps = (0..).find(|&n| f64::from(n) * planned.units.si_dt > 0.6).unwrap();
         engine.step(u64::try_from(steps).unwrap()).unwrap();
@@ -156,7 +156,7 @@ fn couette_flow_is_told_the_error_of_its_own_profile_and_errs_by_no_more() {
         let collision = Preset::of(&scene.setup.collision).unwrap();
         let option = as_it_is(&facts, models(), collision, &oracle()).unwrap();
         // Steady: the slowest part falls by e in h²/(π² ν) = 65 steps.
-        let mut engine = open(&scene, None, false).unwrap();
+        let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
         engine.step(1500).unwrap();
         budget.spend(1500 * 8);
         let cells = engine.cells(Block::plane(&scene.setup.domain, 0));

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
 use psmrt::advice::estimate::{disk, warnings};
-use psmrt::engine::{Coupled, open, starting_from};
+use psmrt::engine::{Coupled, EngineName, open, starting_from};
 use psmrt::output::records::{box_row, profile_rows};
 use psmrt::output::slice;
 use psmrt::scene::format_run::Quantity;
@@ -81,7 +81,7 @@ fn linear(faces: &str) -> (Scene, Coupled) {
     let scene = scene(&COUETTE.replace("4, 8, 2", "4, 5, 6"), &[&format!("faces={faces}")]);
     let state =
         |at: Vec3| (1.0, Vec3::new(1e-3 * (1.0 + at.x + 2.0 * at.y + 3.0 * at.z), 0.0, 0.0));
-    let engine = starting_from(&scene.setup, None, None, state).unwrap();
+    let engine = starting_from(EngineName::Reference, &scene.setup, None, None, state).unwrap();
     (scene, engine)
 }
 
@@ -157,7 +157,7 @@ steps = 1
     // Half a step of the force gives g dt/2 = 6.7e-4 m/s; a sum of 19 populations rounds to 1e-16 of sound.
     let start = |changes: &[&str]| {
         let scene = scene(text, changes);
-        let engine = open(&scene, None, false).unwrap();
+        let engine = open(EngineName::Reference, &scene, None, false).unwrap();
         (box_row(&scene, &engine), scene.units.si_velocity())
     };
     let (row, unit) = start(&[]);

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::cli::{Folder, psmrt, stderr};
 use crate::common::Budget;
 use psmrt::advice::estimate::{numbers, warnings};
-use psmrt::engine::open;
+use psmrt::engine::{EngineName, open};
 use psmrt::scene::Scene;
 use psmrt_reference::grains::grain::sphere_volume;
 use psmrt_reference::grains::hold::deepest_of;
@@ -198,7 +198,7 @@ fn a_bed_at_rest_overlaps_by_less_than_one_percent_of_a_diameter_at_any_tau() {
 fn a_steel_ball_that_falls_on_a_small_grain_overlaps_it_by_less_than_five_percent() {
     let mut budget = Budget::oracle(210_000);
     let scene = scene(BALL);
-    let mut engine = open(&scene, None, false).unwrap();
+    let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     let mut deepest = 0.0_f64;
     budget.spend(60 * scene.setup.domain.cell_count() as u64);
     for _ in 0..60 {

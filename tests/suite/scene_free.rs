@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use crate::common::Budget;
-use psmrt::engine::{Coupled, open};
+use psmrt::engine::{Coupled, EngineName, open};
 use psmrt::output::grain_means;
 use psmrt::scene::{FreePart, Scene};
 use psmrt_reference::coupling::{Gravity, InternalFluid};
@@ -184,7 +184,7 @@ fn a_mirror_plane_acts_on_a_grain_as_its_mirror_image_does() {
 fn fixed_prescribed_and_free_grains_live_in_one_scene() {
     let mut budget = Budget::oracle(230_400);
     let scene = scene(SCENE);
-    let mut engine = open(&scene, None, false).unwrap();
+    let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     budget.spend(60 * scene.setup.domain.cell_count() as u64);
     engine.step(60).unwrap();
     let start = &scene.setup.solid_phase.as_ref().unwrap().solids;
@@ -206,7 +206,7 @@ fn without_free_grains_there_is_no_dem() {
     let end = text.find("[stop]").unwrap();
     let scene = scene(&format!("{}{}", &text[..start], &text[end..]));
     assert!(scene.free.is_none());
-    assert!(open(&scene, None, false).unwrap().free_grains().is_none());
+    assert!(open(EngineName::Reference, &scene, None, false).unwrap().free_grains().is_none());
 }
 
 #[test]
@@ -215,7 +215,7 @@ fn an_engine_goes_on_bit_for_bit_from_what_it_saved_during_contacts() {
     for (kept, averaged) in [("lagged", "true"), ("kept", "false")] {
         let coupling = format!("internal_fluid = \"{kept}\"\naverage_loads = {averaged}");
         let scene = scene(&SCENE.replace("average_loads = true", &coupling));
-        let new = || open(&scene, None, false).unwrap();
+        let new = || open(EngineName::Reference, &scene, None, false).unwrap();
         let (mut whole, mut first, mut second) = (new(), new(), new());
         budget.spend(2 * 60 * scene.setup.domain.cell_count() as u64);
         whole.step(60).unwrap();
@@ -240,7 +240,7 @@ fn an_engine_goes_on_bit_for_bit_from_what_it_saved_during_contacts() {
 
 #[test]
 fn a_saved_state_of_other_grains_is_refused() {
-    let scene_of = |text: &str| open(&scene(text), None, false).unwrap();
+    let scene_of = |text: &str| open(EngineName::Reference, &scene(text), None, false).unwrap();
     let mut saved = Vec::new();
     scene_of(SCENE).save(&mut saved).unwrap();
     let fourth = "[[grains]]\nkind = \"sphere\"\ncentre = [6e-4, 2.4e-4, 1e-4]\ndiameter = 1e-4\n";
@@ -255,7 +255,7 @@ fn a_saved_state_of_other_grains_is_refused() {
 fn means_over_the_free_grains_are_those_of_the_grains() {
     let mut budget = Budget::oracle(100_000);
     let scene = scene(SCENE);
-    let mut engine = open(&scene, None, false).unwrap();
+    let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     budget.spend(20 * scene.setup.domain.cell_count() as u64);
     engine.step(20).unwrap();
     let units = &scene.units;

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::common::Budget;
 use psmrt::advice::estimate::warnings;
-use psmrt::engine::open;
+use psmrt::engine::{EngineName, open};
 use psmrt::output::records::load_rows;
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::Gravity;
@@ -136,7 +136,7 @@ fn balance_where_something_holds_up_the_grains_is_refused_with_a_remedy() {
 fn force_and_displaced_force_of_a_record_of_loads_add_up_to_the_driving_force() {
     let mut budget = Budget::oracle(600_000);
     let scene = scene(ARRAY);
-    let mut engine = open(&scene, None, false).unwrap();
+    let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     budget.spend(1000 * 512);
     engine.step(1000).unwrap();
     let rows = load_rows(&scene, &engine);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::Budget;
 use psmrt::advice::estimate::{Warning, warnings};
-use psmrt::engine::{Coupled, open};
+use psmrt::engine::{Coupled, EngineName, open};
 use psmrt::scene::Scene;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::CS2;
@@ -107,7 +107,7 @@ fn stream_started_from_rest_rings_as_long_as_check_says() {
 
     // d'Alembert's square wave, of which the decay leaves the slowest mode: its mean over the box swings by 8/π² u.
     let (u, steps) = (0.01, 2500_u64);
-    let mut engine = open(&at_rest, None, false).unwrap();
+    let mut engine = open(EngineName::Reference, &at_rest, None, false).unwrap();
     Budget::oracle(100_000).spend(32 * steps);
     let (mut largest, mut at) = (0.0_f64, 0);
     for step in 1..=steps {
@@ -151,7 +151,7 @@ fn stream_before_a_non_reflecting_outlet_has_left_of_its_start_what_check_says()
         assert_eq!(warned(&scene, "the sound of that start"), None, "it does not ring");
         let due = warned(&scene, "holds its pressure again").unwrap_or_else(|| panic!("{text}"));
         let left = said(&due.reason, "s; ", "%") / 100.0;
-        let mut engine = psmrt::engine::open(&scene, None, false).unwrap();
+        let mut engine = psmrt::engine::open(EngineName::Reference, &scene, None, false).unwrap();
         Budget::oracle(40_000).spend(32 * (steps + 111));
         let mut rise = || {
             engine.step(1).unwrap();
@@ -194,7 +194,7 @@ fn pressure_difference_between_non_reflecting_faces_accelerates_as_slowly_as_che
         let due = warned(&scene, "accelerates the fluid").expect("their inertia is warned of");
         assert_eq!(said(&due.reason, "as if the domain were ", "times"), times, "{due:?}");
         Budget::oracle(150_000).spend(32 * 4000);
-        let mut engine = psmrt::engine::open(&scene, None, false).unwrap();
+        let mut engine = psmrt::engine::open(EngineName::Reference, &scene, None, false).unwrap();
         engine.step(2000).unwrap();
         let before = engine.box_means().mass_flux.x;
         engine.step(2000).unwrap();
@@ -236,10 +236,10 @@ fn saved_state_before_a_non_reflecting_outlet_goes_on_bit_for_bit_on_the_oracle(
     for text in [open, with_grain] {
         let scene = scene(&text);
         Budget::oracle(500_000).spend(200 * scene.setup.domain.cell_count() as u64);
-        let mut straight = psmrt::engine::open(&scene, None, false).unwrap();
+        let mut straight = psmrt::engine::open(EngineName::Reference, &scene, None, false).unwrap();
         straight.step(70).unwrap();
         let saved = bits(&straight);
-        let mut resumed = psmrt::engine::open(&scene, None, false).unwrap();
+        let mut resumed = psmrt::engine::open(EngineName::Reference, &scene, None, false).unwrap();
         resumed.load(&mut &saved[..]).unwrap();
         assert!(bits(&resumed) == saved, "what is loaded is what was saved");
         straight.step(65).unwrap();

@@ -6,6 +6,7 @@ use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
 use crate::common::random::Random;
 use psmrt::courses::{Lookout, Meeting, Obstacle, leavings};
+use psmrt::engine::{EngineName, open};
 use psmrt::scene::Scene;
 
 /// A towed sphere of 8 cells, 2 cells before the end of a box of 16.
@@ -182,7 +183,7 @@ steps = 10
     let path = std::path::Path::new(".");
     let scene =
         psmrt::scene::Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), path, &[]).unwrap();
-    let mut engine = psmrt::engine::open(&scene, None, false).unwrap();
+    let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     engine.step(10).unwrap();
     let centre = engine.solids()[0].centre;
     let expected = psmrt_reference::lattice::Vec3::new(6.0, 6.0, 5.5);

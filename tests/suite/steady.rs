@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::common::Budget;
 use psmrt::checkpoint;
-use psmrt::engine::open;
+use psmrt::engine::{EngineName, open};
 use psmrt::output::folder::RunFolder;
 use psmrt::run::steady::History;
 use psmrt::run::{End, Watcher, run};
@@ -69,7 +69,7 @@ fn a_channel_is_steady_within_the_tolerance_of_its_exact_flow_at_any_spacing_of_
     for tolerance in [1e-2, 1e-3, 1e-5] {
         for every in [1, 10, 100] {
             let scene = channel(every, tolerance);
-            let mut engine = open(&scene, None, false).unwrap();
+            let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
             let folder = tempfile::tempdir().unwrap();
             let held = RunFolder::open(folder.path()).unwrap();
             let end = run(&scene, &mut engine, &held, None, &mut GoOn).unwrap();
@@ -114,7 +114,7 @@ fn a_run_that_is_cut_off_becomes_steady_at_the_same_step_with_the_same_rows() {
         let folder = tempfile::tempdir().unwrap();
         for cut in cuts.iter().chain([&u64::MAX]) {
             let held = RunFolder::open(folder.path()).unwrap();
-            let mut engine = open(&scene, None, false).unwrap();
+            let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
             let newest = checkpoint::list(folder.path()).unwrap().pop();
             let resumed =
                 newest.map(|file| checkpoint::load(&file, &held, &scene, &mut engine).unwrap());

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use std::sync::{Arc, OnceLock};
 
 use libtest_mimic::{Arguments, Failed, Trial};
+use psmrt::engine::EngineName;
 use psmrt::kernel::{Gpu, Kernel, KernelError};
 
 use crate::common::Budget;
@@ -18,8 +19,16 @@ pub fn gpu() -> Result<Arc<Gpu>, KernelError> {
     GPU.get_or_init(|| Gpu::open(None)).clone()
 }
 
+/// The device for an engine that needs one.
+pub fn device_of(engine: EngineName) -> Option<Arc<Gpu>> {
+    engine.needs_device().then(|| gpu().unwrap_or_else(|error| panic!("{error}")))
+}
+
 /// A trial by its claim.
 pub type Claim = (&'static str, fn());
+
+/// A trial that each engine is put through, by its claim.
+pub type EngineClaim = (&'static str, fn(EngineName));
 
 /// Runs the trials.
 pub fn run(claims: &[Claim]) -> ExitCode {
@@ -38,11 +47,20 @@ pub fn arguments() -> Arguments {
 
 /// The trials of a file, whose name comes before theirs.
 pub fn on_device(arguments: &Arguments, file: Option<&str>, claims: &[Claim]) -> Vec<Trial> {
+    trials_of(arguments, true, file, claims.iter().copied())
+}
+
+fn trials_of(
+    arguments: &Arguments,
+    needs_device: bool,
+    file: Option<&str>,
+    claims: impl Iterator<Item = (&'static str, impl Fn() + Send + 'static)>,
+) -> Vec<Trial> {
     let required = std::env::var("PSMRT_REQUIRE_GPU").is_ok_and(|value| value == "1");
-    let device = if arguments.list { Ok(()) } else { gpu().map(|_| ()) };
+    let device = if needs_device && !arguments.list { gpu().map(|_| ()) } else { Ok(()) };
     let named = |claim: &str| file.map_or(claim.to_owned(), |file| format!("{file}::{claim}"));
-    let trials = claims.iter().map(|&(name, claim)| (named(name), claim));
-    trials
+    claims
+        .map(|(name, claim)| (named(name), claim))
         .map(|(name, claim)| match &device {
             Ok(()) => Trial::test(name, move || {
                 claim();
@@ -57,6 +75,18 @@ pub fn on_device(arguments: &Arguments, file: Option<&str>, claims: &[Claim]) ->
                 .with_ignored_flag(true),
         })
         .collect()
+}
+
+/// The same for an engine, whose name comes first; without an adapter those of an engine that needs none run.
+pub fn of_engine(
+    arguments: &Arguments,
+    engine: EngineName,
+    file: &str,
+    claims: &[EngineClaim],
+) -> Vec<Trial> {
+    let file = format!("{}::{file}", engine.word());
+    let named = claims.iter().map(|&(name, claim)| (name, move || claim(engine)));
+    trials_of(arguments, engine.needs_device(), Some(&file), named)
 }
 
 impl Budget {

@@ -4,10 +4,11 @@
 use std::path::Path;
 
 use super::Warning;
+use crate::engine::EngineName;
 use crate::machine::free_bytes;
 use crate::output::records::columns;
 use crate::scene::format_run::FieldFormat;
-use crate::scene::{EngineKind, OutputInterval, Record, Scene, What};
+use crate::scene::{OutputInterval, Record, Scene, What};
 
 /// Nobody writes more than this without having thought of it.
 const MUCH: f64 = 1e12;
@@ -97,10 +98,8 @@ fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
 }
 
 fn checkpoints(scene: &Scene) -> f64 {
-    let population = match scene.engine {
-        EngineKind::Wgpu => 4.0,
-        EngineKind::Reference | EngineKind::Auto => 8.0,
-    };
+    let engine = EngineName::of(scene.engine).unwrap_or(EngineName::Reference);
+    let population = f64::from(engine.bytes_of_number());
     let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
     let cells = scene.setup.domain.cell_count() as f64;
     CHECKPOINTS * (19.0 * population * cells + GRAIN_STATE * solids)

@@ -2,9 +2,10 @@
 
 use psmrt_reference::solids::Shape;
 
+use crate::engine::EngineName;
 use crate::machine::{self, Available};
 use crate::output::snapshots::BYTES_OF_FIELDS;
-use crate::scene::{EngineKind, Scene, What};
+use crate::scene::{Scene, What};
 
 /// A share in a covered cell: the list that holds it, room for the four that a list begins with, and the
 /// number of the cell (`reference/src/coverage`).
@@ -30,7 +31,8 @@ pub struct Part {
 /// The arrays of a scene, at the most at any time of a run.
 pub fn parts(scene: &Scene) -> Vec<Part> {
     let cells = scene.setup.domain.cell_count() as u64;
-    let real = if scene.engine == EngineKind::Wgpu { 4 } else { 8 };
+    let engine = EngineName::of(scene.engine).unwrap_or(EngineName::Reference);
+    let real = u64::from(engine.bytes_of_number());
     // Before and after streaming.
     let mut parts = vec![Part { what: "populations", bytes: 2 * 19 * real * cells }];
     if let Some(phase) = &scene.setup.solid_phase {

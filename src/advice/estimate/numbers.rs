@@ -7,7 +7,8 @@ use super::spheres::solid_fraction;
 use super::warnings::accuracy::{outlook, subject};
 use super::{Number, diameters, grains, memory, number, si_velocity};
 use crate::advice::plan::predict::Outside;
-use crate::scene::{EngineKind, Scene};
+use crate::engine::EngineName;
+use crate::scene::Scene;
 
 /// The length for the Reynolds number, m, and what it is.
 fn si_length(scene: &Scene) -> (f64, &'static str) {
@@ -84,10 +85,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
     }
     numbers.extend(predicted_error(scene));
     numbers.extend(grains::numbers(scene));
-    let engine = match scene.engine {
-        EngineKind::Wgpu => "wgpu",
-        EngineKind::Reference | EngineKind::Auto => "reference",
-    };
+    let engine = EngineName::of(scene.engine).unwrap_or(EngineName::Reference).word();
     let parts: Vec<_> = memory::parts(scene).iter().map(|part| part.what).collect();
     let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
     numbers.push(number("memory", mib, "MiB", format!("{}; engine {engine}", parts.join(", "))));

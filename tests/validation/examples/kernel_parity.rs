@@ -17,6 +17,7 @@ use parity::{
     Both, CELLS, G, OPERATORS, WEIGHTINGS, collisions, error_of_one_step, given_fractions,
     mixed_faces, random_state, scenes, waves,
 };
+use psmrt::engine::EngineName;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::setup::{Setup, SolidPhase};
 
@@ -29,7 +30,7 @@ fn one_step(budget: &mut Budget) {
     let periodic = || Domain::new(CELLS, Faces::PERIODIC).expect("a box");
     let mut measure = |what: &str, setup: &Setup, random: &mut Random| {
         let start = random_state(random, setup.domain.cell_count());
-        let error = error_of_one_step(budget, setup, &start);
+        let error = error_of_one_step(EngineName::Wgpu, budget, setup, &start);
         row(what, 1, "populations over epsilon times gauge", error, 16.0);
     };
     for (name, collision) in collisions() {
@@ -61,7 +62,7 @@ fn many_steps(budget: &mut Budget) {
         let mut random = Random(2);
         for (name, setup) in scenes() {
             let start = waves(&mut random, &setup.domain);
-            let mut both = Both::new(&setup, &start);
+            let mut both = Both::new(EngineName::Wgpu, &setup, &start);
             both.run(budget, steps);
             let errors = both.errors();
             row(name, steps, "populations over bound", errors.populations, 1.0);

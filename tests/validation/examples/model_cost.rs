@@ -180,10 +180,7 @@ fn bytes_here(engine: &str, model: &str, side: usize) -> Result<(), Failure> {
 fn start(engine: EngineName, gpu: &Arc<Gpu>, model: &Model) -> Result<Coupled, Failure> {
     let state = |x: Vec3| (1.0, Vec3::new(1e-3 * (0.2 * x.y).sin(), 0.0, 0.0));
     let (setup, free) = (&model.setup, model.free.as_ref());
-    Ok(match engine {
-        EngineName::Reference => starting_from(setup, free, None, state)?,
-        EngineName::Wgpu => starting_from(setup, free, Some(gpu), state)?,
-    })
+    Ok(starting_from(engine, setup, free, Some(gpu), state)?)
 }
 
 /// Bytes of this process in memory (proc(5), `statm`).

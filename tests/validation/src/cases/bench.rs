@@ -133,7 +133,7 @@ impl Bench {
     pub fn run(&mut self, scene: &str, changes: &[String]) -> Result<(Finished, End), CaseError> {
         (self.tell)(&format!("{} on {}: {}", scene, self.engine_name().word(), changes.join(" ")));
         let scene = self.load(scene, changes)?;
-        let engine = engine::open(&scene, self.gpu.as_ref(), false)?;
+        let engine = engine::open(self.engine_name(), &scene, self.gpu.as_ref(), false)?;
         self.run_on(scene, engine)
     }
 

@@ -11,7 +11,7 @@ use psmrt_reference::setup::Setup;
 
 use super::start::populations;
 use super::{LabError, Line};
-use psmrt::engine::{Coupled, EngineName, EngineStop, StartError, from_populations, starting_from};
+use psmrt::engine::{Coupled, EngineStop, StartError, from_populations, starting_from};
 use psmrt::kernel::Gpu;
 use psmrt::scene::FreePart;
 
@@ -41,13 +41,7 @@ impl Lab {
         free: Option<&FreePart>,
         state: impl Fn(Vec3) -> (f64, Vec3),
     ) -> Result<Coupled, LabError> {
-        match line.engine {
-            EngineName::Reference => Ok(starting_from(setup, free, None, state)?),
-            EngineName::Wgpu => {
-                let gpu = self.gpu.as_ref().ok_or(LabError::NoDevice)?;
-                Ok(starting_from(setup, free, Some(gpu), state)?)
-            }
-        }
+        Ok(starting_from(line.engine, setup, free, self.gpu(line)?, state)?)
     }
 
     /// A fluid without solids in a periodic box at its start, with the stress of its velocity field.
@@ -61,13 +55,15 @@ impl Lab {
         let centre = |cell| domain.centre(domain.coordinates(cell));
         let states: Vec<_> = (0..domain.cell_count()).map(|cell| state(centre(cell))).collect();
         let f = populations(&setup.collision, domain.cells(), &states)?;
-        match line.engine {
-            EngineName::Reference => Ok(from_populations(setup, None, f)?),
-            EngineName::Wgpu => {
-                let gpu = self.gpu.as_ref().ok_or(LabError::NoDevice)?;
-                Ok(from_populations(setup, Some(gpu), f)?)
-            }
+        Ok(from_populations(line.engine, setup, self.gpu(line)?, &f)?)
+    }
+
+    /// The device, for an engine that needs one.
+    fn gpu(&self, line: &Line) -> Result<Option<&Arc<Gpu>>, LabError> {
+        if line.engine.needs_device() && self.gpu.is_none() {
+            return Err(LabError::NoDevice);
         }
+        Ok(self.gpu.as_ref())
     }
 }
 

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use crate::cases::{Bench, CaseError};
 use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
-use psmrt::engine::{self, Coupled};
+use psmrt::engine::{self, Coupled, EngineName};
 use psmrt::kernel::Gpu;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
@@ -58,9 +58,9 @@ pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError
                 let words = [name, collision.word(), kind];
                 entries.push(Entry { words, engine, cells, best: f64::INFINITY });
             };
-            add("reference", engine::open(&scene, None, false)?);
+            add("reference", engine::open(EngineName::Reference, &scene, None, false)?);
             if let Some(gpu) = gpu {
-                add("wgpu", engine::open(&scene, Some(gpu), false)?);
+                add("wgpu", engine::open(EngineName::Wgpu, &scene, Some(gpu), false)?);
             }
         }
     }

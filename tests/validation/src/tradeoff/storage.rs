@@ -8,6 +8,7 @@ use std::io::{self, Read, Write};
 use psmrt_reference::directions::C;
 use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Guard, Sight};
+use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
 
@@ -112,6 +113,10 @@ impl FluidEngine for RoundedEngine {
 
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {
         self.inner.cells(block)
+    }
+
+    fn populations(&self, block: Block) -> Result<Vec<Populations>, DeviceError> {
+        self.inner.populations(block)
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {
