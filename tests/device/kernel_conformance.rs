@@ -109,6 +109,10 @@ impl Candidate for KernelCandidate {
         let mut kernel = Kernel::new(&trials::gpu().unwrap(), setup, false).unwrap();
         let mut direction = 0;
         let fill = |row: &mut [u8]| {
+            // The row after those of the directions is that of the face values: they stay those of the set-up.
+            if direction == W.len() {
+                return Ok(());
+            }
             for (bits, f) in row.chunks_exact_mut(4).zip(&problem.post) {
                 #[expect(clippy::cast_possible_truncation, reason = "what the kernel keeps")]
                 let kept = (f[direction] - W[direction]) as f32;
