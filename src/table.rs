@@ -46,8 +46,13 @@ impl Table {
 
     /// The rows as the text of a CSV file.
     pub fn to_csv(&self) -> String {
+        let field = |field: &String| match field.contains([',', '"']) {
+            true => format!("\"{}\"", field.replace('"', "\"\"")),
+            false => field.clone(),
+        };
         let lines = std::iter::once(&self.columns).chain(&self.rows);
-        lines.map(|line| line.join(",") + "\n").collect()
+        let line = |line: &Vec<String>| line.iter().map(field).collect::<Vec<_>>().join(",") + "\n";
+        lines.map(line).collect()
     }
 
     /// Adds a row.

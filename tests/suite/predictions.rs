@@ -11,9 +11,7 @@ use psmrt::advice::plan::duct::Duct;
 use psmrt::advice::plan::facts::{Facts, Limit};
 use psmrt::advice::plan::options::{Speed, as_it_is, cheapest, options};
 use psmrt::advice::plan::write::text;
-use psmrt::advice::tradeoff::evidence::{SolidMethod, committed_sweep};
-use psmrt::advice::tradeoff::evidence_low::low_points;
-use psmrt::advice::tradeoff::model::Models;
+use psmrt::advice::tradeoff::model::{Models, SolidMethod};
 use psmrt::engine::{Block, EngineName, open};
 use psmrt::scene::Scene;
 use psmrt::table::Table;
@@ -298,27 +296,6 @@ fn beds_of_the_seepage_study_lie_within_their_bands() {
             found.error
         );
     }
-}
-
-#[test]
-fn near_tau_one_half_the_second_error_halves_what_is_left() {
-    let points = low_points(&committed_sweep().unwrap()).unwrap();
-    assert!(points.len() > 40, "only {} runs", points.len());
-    let above = models().of_grains(Preset::DHumieres, SolidMethod::Usual).unwrap();
-    let low = models().low.as_ref().unwrap();
-    let (mut with, mut without, mut inside) = (0.0, 0.0, 0);
-    for point in &points {
-        let found = low.prediction(above, point.cells, point.tau, point.drag);
-        let off = |error: f64| (error.ln_1p() - point.error.ln_1p()).powi(2);
-        with += off(found.error);
-        without += off(above.error(point.cells, point.tau, point.drag));
-        inside += usize::from((found.band[0]..=found.band[1]).contains(&point.error));
-    }
-    let share = (with / without).sqrt();
-    println!("{} runs, {inside} within their band, left {share:.2}", points.len());
-    assert!(share < 0.5, "the second error leaves {share:.2} of what the first does");
-    // 95 % are meant; of so few the count scatters by some hundredths.
-    assert!(inside as f64 > 0.9 * points.len() as f64, "{inside} of {}", points.len());
 }
 
 /// The value of a key in the words of a remedy.

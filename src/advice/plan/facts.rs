@@ -8,18 +8,16 @@ use psmrt_reference::lattice::viscosity;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 
 use super::duct::Duct;
+use crate::advice::coefficients::curve;
 use crate::advice::estimate::bed::{Bed, bed};
 use crate::advice::estimate::grains::free;
 use crate::advice::estimate::si_velocity;
 use crate::advice::estimate::spheres::{solid_fraction, spheres};
 use crate::advice::estimate::warnings::stability::mapped;
 use crate::advice::stability::limits::Measured;
-use crate::advice::tradeoff::evidence::SolidMethod;
+use crate::advice::tradeoff::model::SolidMethod;
 use crate::scene::Scene;
-use crate::table::{Table, TableError};
-
-const ARRAYS: &str = include_str!("../../../golden/sphere_arrays/literature.csv");
-const SHAFTS: &str = include_str!("../../../golden/stokes_settling/literature.csv");
+use crate::table::TableError;
 
 /// What limits the accuracy of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -238,12 +236,7 @@ pub(crate) fn drag(scene: &Scene) -> Result<Drag, TableError> {
     let whole = solid_fraction(scene);
     let bed = bed(scene);
     let fraction = bed.map_or(whole, |bed| bed.fraction);
-    let crowd = interpolated(
-        &Table::parse("golden/sphere_arrays/literature.csv", ARRAYS)?
-            .with(&[("lattice", "FCC")])?,
-        ["solid_fraction_c", "K_computed"],
-        fraction,
-    )?;
+    let crowd = interpolated(&curve("drag", "array")?, fraction);
     let largest = spheres(scene).iter().map(|s| s.1).fold(0.0, f64::max);
     // A mirror plane halves the shaft; a wall on one side only counts as one on both.
     let half = |axis: usize| {
@@ -258,12 +251,7 @@ pub(crate) fn drag(scene: &Scene) -> Result<Drag, TableError> {
         }
     };
     let narrowest = (0..3).map(half).fold(f64::INFINITY, f64::min);
-    let shaft = interpolated(
-        &Table::parse("golden/stokes_settling/literature.csv", SHAFTS)?
-            .with(&[("section", "square")])?,
-        ["a_over_halfwidth", "K1_translating_in_still_fluid"],
-        largest / narrowest,
-    )?;
+    let shaft = interpolated(&curve("drag", "shaft")?, largest / narrowest);
     let (factor, because) = if shaft > crowd {
         let width = narrowest / largest;
         (shaft, format!("a square shaft {width:.1} diameters wide, like the walls"))
@@ -280,17 +268,16 @@ pub(crate) fn drag(scene: &Scene) -> Result<Drag, TableError> {
     Ok(Drag { factor, because, fraction })
 }
 
-/// A column of the literature at a value of another: linear in the logarithm between rows, from 1 at
-/// nothing up, and the last row's beyond.
-fn interpolated(table: &Table, [x, y]: [&str; 2], at: f64) -> Result<f64, TableError> {
+/// A curve at a value: linear in the logarithm between points, from 1 at nothing up, and the last point's beyond.
+fn interpolated(curve: &[(f64, f64)], at: f64) -> f64 {
     let mut before = (0.0, 1.0_f64);
-    for (x, y) in table.points(x, y)? {
+    for &(x, y) in curve {
         if at <= x {
             // Both grow with the third root of the solid fraction, or with the width.
             let share = (at - before.0) / (x - before.0);
-            return Ok((before.1.ln() + share * (y.ln() - before.1.ln())).exp());
+            return (before.1.ln() + share * (y.ln() - before.1.ln())).exp();
         }
         before = (x, y);
     }
-    Ok(before.1)
+    before.1
 }

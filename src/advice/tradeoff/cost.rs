@@ -1,19 +1,10 @@
-//! What a collision costs beside another, from the committed figures.
+//! What a collision costs beside another.
 
-use psmrt_reference::collision::Preset;
+use crate::advice::coefficients::numbers;
+use crate::table::TableError;
 
-use crate::table::{Table, TableError};
-
-/// The committed figures, part of the program.
-const COMMITTED: &str = include_str!("../../../golden/tradeoff/cost.csv");
-
-/// Cost of many relaxation times over that of a single one, on an engine, in a bed: from the committed
-/// figures.
+/// Cost of many relaxation times over that of a single one, on an engine, in a bed.
 pub fn mrt_over_srt(engine: &str) -> Result<f64, TableError> {
-    let costs = Table::parse("golden/tradeoff/cost.csv", COMMITTED)?;
-    let of = |collision: Preset| {
-        let wanted = [("engine", engine), ("collision", collision.word()), ("scene", "bed")];
-        costs.with(&wanted)?.number("ns_per_cell_update")
-    };
-    Ok(of(Preset::DHumieres)? / of(Preset::Srt)?)
+    let [ratio] = numbers("cost of MRT over SRT", engine)?;
+    Ok(ratio)
 }

@@ -1,4 +1,5 @@
-//! Error models: what the physics says with free numbers, fitted to the evidence, with bands.
+//! Error models: what the physics says with free numbers, fitted to runs with known answers, with bands. The numbers
+//! stand in `src/advice/coefficients.csv`; the fits are in `tests/validation/src/tradeoff/fitting.rs`.
 //!
 //! **Grains.** Each full cell lets a flux through in proportion to the pressure gradient
 //! (`tests/oracle/leakage.rs`): a body of permeability ν/2. The velocity under a given force is therefore too
@@ -28,13 +29,9 @@ use std::sync::OnceLock;
 use psmrt_reference::collision::{Collision, Preset};
 use psmrt_reference::rates::Rates;
 
-use super::evidence::{
-    GrainPoint, LEAST_TAU, SolidMethod, WallPoint, committed_sweep, grain_points, wall_points,
-};
-use super::evidence_low::low_points;
-use super::fit::{Fit, least_squares, rms};
 use super::model_eps::EpsModel;
 use super::model_low::LowModel;
+use crate::advice::coefficients::numbers;
 use crate::exact::magic_parameter;
 use crate::table::TableError;
 
@@ -43,7 +40,61 @@ use crate::table::TableError;
 pub const LEAST_ERROR: f64 = 0.01;
 
 /// Quantile of the normal distribution that leaves 2.5 % at either end.
-pub(super) const QUANTILE: f64 = 1.96;
+pub const QUANTILE: f64 = 1.96;
+
+/// Below this relaxation time what remains beside the leak counts most, and has either sign: there
+/// `model_low.rs` speaks.
+pub const LEAST_TAU: f64 = 0.6;
+
+/// How cells collide that are solid in part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolidMethod {
+    /// Noble and Torczynski's weight, bounce-back operator.
+    Usual,
+    /// The superposition operator.
+    Superposition,
+    /// The weight `B = ε`.
+    SolidFraction,
+}
+
+impl SolidMethod {
+    /// As tables spell it.
+    pub fn word(self) -> &'static str {
+        match self {
+            SolidMethod::Usual => "NT",
+            SolidMethod::Superposition => "superposition",
+            SolidMethod::SolidFraction => "eps",
+        }
+    }
+
+    /// What a word of a table stands for.
+    pub fn from_word(word: &str) -> Option<Self> {
+        let all = [SolidMethod::Usual, SolidMethod::Superposition, SolidMethod::SolidFraction];
+        all.into_iter().find(|method| method.word() == word)
+    }
+}
+
+/// What the runs were that a model was fitted to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evidence {
+    /// Scatter of the logarithm that the model is fitted to, in geometries left out of the fit.
+    pub scatter: f64,
+    /// Number of runs, and of geometries.
+    pub counts: [usize; 2],
+    /// Smallest and largest cells per diameter, relaxation time and drag among them.
+    pub ranges: [[f64; 2]; 3],
+}
+
+impl Evidence {
+    /// That of a row of coefficients, which has it after the parameters.
+    pub(super) fn committed(of: &str) -> Result<Self, TableError> {
+        let [scatter, runs, geometries, ranges @ ..] = numbers::<9>("grains: evidence", of)?;
+        let [a, b, c, d, e, f] = ranges;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small counts")]
+        let counts = [runs, geometries].map(|count| count as usize);
+        Ok(Evidence { scatter, counts, ranges: [[a, b], [c, d], [e, f]] })
+    }
+}
 
 /// The error of flows with grains, for one collision of the fluid and of solid cells.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,89 +103,28 @@ pub struct GrainModel {
     pub collision: Preset,
     /// How solid cells collide.
     pub solid: SolidMethod,
-    /// `ln a`, `ln b`, `m`, `p`, and what they leave.
-    pub fit: Fit,
-    /// Scatter of the logarithm of the error in geometries left out of the fit.
-    pub scatter: f64,
-    /// Number of runs, and of geometries.
-    pub counts: [usize; 2],
-    /// Smallest and largest cells per diameter, relaxation time and drag among them.
-    pub ranges: [[f64; 2]; 3],
+    /// `ln a`, `ln b`, `m`, `p`
+    pub parameters: [f64; 4],
+    /// What they were fitted to; the scatter is that of the error.
+    pub evidence: Evidence,
 }
 
 /// `error = K^m [a (τ - 1/2)/d² + b/d^p]`
-fn grain_error(parameters: &[f64], d: f64, tau: f64, drag: f64) -> f64 {
+pub fn grain_error(parameters: &[f64], d: f64, tau: f64, drag: f64) -> f64 {
     let [a, b, m, p] = [parameters[0].exp(), parameters[1].exp(), parameters[2], parameters[3]];
     drag.powf(m) * (a * (tau - 0.5) / (d * d) + b / d.powf(p))
 }
 
-/// Where the search starts: the leak of an isolated sphere, and a remainder of third order.
-const START: [f64; 4] = [1.1, 1.0, 0.8, 3.0];
-
 impl GrainModel {
-    /// Fits the points of a collision whose error is large enough to be of one sign. `None` if there are
-    /// too few, or of fewer than three geometries.
-    pub fn fit(collision: Preset, solid: SolidMethod, points: &[GrainPoint]) -> Option<Self> {
-        let own = |point: &&GrainPoint| {
-            point.collision == collision && point.solid == solid && point.error > LEAST_ERROR
-        };
-        let own: Vec<&GrainPoint> = points.iter().filter(own).collect();
-        let fit = Self::through(&own)?;
-        let (scatter, geometries) = unseen(&own, Self::through, residual)?;
-        let counts = [own.len(), geometries];
-        Some(GrainModel { collision, solid, fit, scatter, counts, ranges: ranges(&own) })
-    }
-
-    fn through(points: &[&GrainPoint]) -> Option<Fit> {
-        least_squares(&START, |p| points.iter().map(|point| residual(p, point)).collect())
-    }
-
     /// Relative error of the velocity under a given force.
     pub fn error(&self, d: f64, tau: f64, drag: f64) -> f64 {
-        grain_error(&self.fit.parameters, d, tau, drag)
+        grain_error(&self.parameters, d, tau, drag)
     }
 
     /// The factor by which the measured error may be larger or smaller.
     pub fn band(&self) -> f64 {
-        (QUANTILE * self.scatter).exp()
+        (QUANTILE * self.evidence.scatter).exp()
     }
-}
-
-/// Scatter of what fits leave of geometries that were left out of them, each in turn, and the number of
-/// geometries. `None` if there are fewer than three.
-pub(super) fn unseen(
-    own: &[&GrainPoint],
-    through: impl Fn(&[&GrainPoint]) -> Option<Fit>,
-    residual: impl Fn(&[f64], &GrainPoint) -> f64,
-) -> Option<(f64, usize)> {
-    let mut geometries: Vec<&str> = own.iter().map(|point| &*point.geometry).collect();
-    geometries.sort_unstable();
-    geometries.dedup();
-    if geometries.len() < 3 {
-        return None;
-    }
-    let mut left = Vec::new();
-    for left_out in &geometries {
-        let (out, others): (Vec<_>, Vec<_>) =
-            own.iter().partition(|point| point.geometry == *left_out);
-        let fit = through(&others)?;
-        left.extend(out.iter().map(|point| residual(&fit.parameters, point)));
-    }
-    Some((rms(&left), geometries.len()))
-}
-
-/// Smallest and largest cells per diameter, relaxation time and drag.
-pub(super) fn ranges(own: &[&GrainPoint]) -> [[f64; 2]; 3] {
-    let range = |value: fn(&GrainPoint) -> f64| {
-        own.iter().fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], point| {
-            [low.min(value(point)), high.max(value(point))]
-        })
-    };
-    [range(|p| p.cells), range(|p| p.tau), range(|p| p.drag)]
-}
-
-fn residual(parameters: &[f64], point: &GrainPoint) -> f64 {
-    (grain_error(parameters, point.cells, point.tau, point.drag) / point.error).ln()
 }
 
 /// The error between plates, for one collision.
@@ -142,8 +132,10 @@ fn residual(parameters: &[f64], point: &GrainPoint) -> f64 {
 pub struct WallModel {
     /// The collision.
     pub collision: Preset,
-    /// `s` and `c`, and what they leave.
-    pub fit: Fit,
+    /// `s` and `c`
+    pub parameters: [f64; 2],
+    /// Scatter of the logarithm of the error.
+    pub scatter: f64,
     /// Number of runs.
     pub count: usize,
 }
@@ -167,31 +159,16 @@ pub fn parameter(collision: Preset, tau: f64) -> f64 {
 }
 
 impl WallModel {
-    /// Fits the points of a collision whose error is more than rounding. `None` if there are too few.
-    pub fn fit(collision: Preset, points: &[WallPoint]) -> Option<Self> {
-        let own = |point: &&WallPoint| point.collision == collision && point.error > 1e-4;
-        let own: Vec<&WallPoint> = points.iter().filter(own).collect();
-        let model = |p: &[f64], point: &WallPoint| {
-            let slip = slip_error(collision, point.tau, point.cells);
-            p[0] * slip + p[1] * point.velocity * point.velocity
-        };
-        let residuals = |p: &[f64]| {
-            own.iter().map(|point| (model(p, point) / point.error).ln()).collect::<Vec<_>>()
-        };
-        let fit = least_squares(&[1.0, 0.0], residuals)?;
-        Some(WallModel { collision, fit, count: own.len() })
-    }
-
     /// Relative L2 error of the profile, `h` cells from plate to plate, `velocity` cells per step.
     pub fn error(&self, h: f64, tau: f64, velocity: f64) -> f64 {
-        let [s, c] = [self.fit.parameters[0], self.fit.parameters[1]];
+        let [s, c] = self.parameters;
         s * slip_error(self.collision, tau, h) + c * velocity * velocity
     }
 
     /// The factor by which the measured error may be larger or smaller: a closed form leaves next to no
     /// scatter, but the flows are steady to a share of 1e-8 a row only, and the error may be 1e-4.
     pub fn band(&self) -> f64 {
-        (QUANTILE * self.fit.scale).exp().max(NARROWEST)
+        (QUANTILE * self.scatter).exp().max(NARROWEST)
     }
 }
 
@@ -209,6 +186,19 @@ pub struct Prediction {
     pub ranges: [[f64; 2]; 2],
 }
 
+/// The combinations of collision and solid method that have a model in the form of [`GrainModel`].
+pub const METHODS: [(Preset, SolidMethod); 4] = [
+    (Preset::Srt, SolidMethod::Usual),
+    (Preset::DHumieres, SolidMethod::Usual),
+    (Preset::Trt, SolidMethod::Usual),
+    (Preset::DHumieres, SolidMethod::Superposition),
+];
+
+/// What a row of coefficients of such a method is called.
+pub fn method(collision: Preset, solid: SolidMethod) -> String {
+    format!("{} {}", collision.word(), solid.word())
+}
+
 /// All models that the evidence supports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Models {
@@ -223,34 +213,30 @@ pub struct Models {
 }
 
 impl Models {
-    /// Fitted to these points.
-    pub fn fit(grains: &[GrainPoint], walls: &[WallPoint]) -> Self {
-        let all = Preset::ALL;
-        let methods = all
-            .map(|parameter| (parameter, SolidMethod::Usual))
-            .into_iter()
-            .chain([(Preset::DHumieres, SolidMethod::Superposition)]);
-        Models {
-            grains: methods
-                .filter_map(|(parameter, solid)| GrainModel::fit(parameter, solid, grains))
-                .collect(),
-            eps: EpsModel::fit(grains),
-            low: None,
-            walls: all.iter().filter_map(|&parameter| WallModel::fit(parameter, walls)).collect(),
-        }
-    }
-
-    /// Fitted to all that is committed, once.
+    /// Those of `coefficients.csv`, read once.
     pub fn committed() -> Result<&'static Self, TableError> {
         static MODELS: OnceLock<Models> = OnceLock::new();
         if let Some(models) = MODELS.get() {
             return Ok(models);
         }
-        let sweep = committed_sweep()?;
-        let mut models = Models::fit(&grain_points(&sweep)?, &wall_points(&sweep));
-        let low = low_points(&sweep)?;
-        let above = models.of_grains(Preset::DHumieres, SolidMethod::Usual);
-        models.low = above.and_then(|above| LowModel::fit(above, &low));
+        let mut models = Models { grains: Vec::new(), eps: None, low: None, walls: Vec::new() };
+        for (collision, solid) in METHODS {
+            let of = method(collision, solid);
+            let (parameters, evidence) = (numbers("grains", &of)?, Evidence::committed(&of)?);
+            models.grains.push(GrainModel { collision, solid, parameters, evidence });
+        }
+        models.eps = Some(EpsModel::committed()?);
+        models.low = Some(LowModel::committed()?);
+        for collision in [Preset::Srt, Preset::DHumieres] {
+            let [s, c, scatter, count] = numbers("plates", collision.word())?;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a small count"
+            )]
+            let count = count as usize;
+            models.walls.push(WallModel { collision, parameters: [s, c], scatter, count });
+        }
         Ok(MODELS.get_or_init(|| models))
     }
 
@@ -281,8 +267,9 @@ impl Models {
         }
         let error = model.error(d, tau, drag);
         let band = [error / model.band(), error * model.band()];
-        let lowest = low.map_or(model.ranges[1][0], |low| low.ranges[1][0]);
-        Some(Prediction { error, band, ranges: [model.ranges[0], [lowest, model.ranges[1][1]]] })
+        let ranges = model.evidence.ranges;
+        let lowest = low.map_or(ranges[1][0], |low| low.evidence.ranges[1][0]);
+        Some(Prediction { error, band, ranges: [ranges[0], [lowest, ranges[1][1]]] })
     }
 
     /// The model between plates of a collision.

@@ -1,10 +1,9 @@
 //! What stands behind a prediction, in words.
 
-use super::evidence::{GrainPoint, LEAST_TAU, SolidMethod, committed_sweep, grain_points};
-use super::evidence_low::low_points;
-use super::model::{LEAST_ERROR, Models};
+use super::model::{LEAST_TAU, Models, SolidMethod};
 use super::model_eps::EpsModel;
-use super::trial::{committed_results, score, trials};
+use super::runs::{GrainPoint, committed};
+use crate::advice::coefficients::numbers;
 use crate::table::TableError;
 use psmrt_reference::collision::Preset;
 
@@ -22,18 +21,18 @@ pub fn of_grains(
     let Some(model) = models.of_grains(collision, solid) else {
         return Ok(vec![format!(
             "with B = epsilon two errors of opposite sign cancel here and not there: what was left out of the \
-             fit lies within a factor of {:.2} of the velocity (src/tradeoff/model_eps.rs)",
+             fit lies within a factor of {:.2} of the velocity (src/advice/tradeoff/model_eps.rs)",
             models.eps.as_ref().map_or(f64::NAN, EpsModel::band)
         )]);
     };
-    let p = &model.fit.parameters;
-    let [[least, most], [low, high], [light, heavy]] = model.ranges;
+    let p = &model.parameters;
+    let [[least, most], [low, high], [light, heavy]] = model.evidence.ranges;
     let mut lines = vec![
         format!(
             "{} runs of {} geometries with {} (golden/tradeoff/sweep.csv, golden/sphere_arrays/study.csv): \
              {least:.1} to {most:.1} cells, tau {low} to {high}, drag {light:.2} to {heavy:.0}",
-            model.counts[0],
-            model.counts[1],
+            model.evidence.counts[0],
+            model.evidence.counts[1],
             collision.title()
         ),
         format!(
@@ -48,8 +47,8 @@ pub fn of_grains(
     ];
     let is_low = tau < LEAST_TAU && collision == Preset::DHumieres;
     if let Some(low) = models.low.as_ref().filter(|_| is_low && solid == SolidMethod::Usual) {
-        let p = &low.fit.parameters;
-        let [_, [low_tau, high_tau], [light, heavy]] = low.ranges;
+        let p = &low.parameters;
+        let [_, [low_tau, high_tau], [light, heavy]] = low.evidence.ranges;
         lines.push(format!(
             "below tau {LEAST_TAU} the velocity is less by exp(-s), s = K^{:.2} {:.3}/d^{:.2} [(tau - 1/2)^-1/2 - \
              {:.2}]: {} runs of {} geometries at tau {low_tau} to {high_tau}, drag {light:.2} to {heavy:.0}, also \
@@ -59,22 +58,18 @@ pub fn of_grains(
             p[0].exp(),
             p[2],
             (LEAST_TAU - 0.5).powf(-0.5),
-            low.counts[0],
-            low.counts[1],
+            low.evidence.counts[0],
+            low.evidence.counts[1],
             100.0 * low.share()
         ));
     }
-    let [[first, of_first], [hits, of]] = score(&trials(models, &committed_results()?)?);
+    let [first, of_first, hits, of] = numbers("held back", "grains and plates")?;
     lines.push(format!(
         "configurations held back from the fits: {hits} of {of} within their band, and {first} of {of_first} \
          of those that the bands were widened after"
     ));
-    let sweep = committed_sweep()?;
-    let mut points = grain_points(&sweep)?;
-    points.extend(low_points(&sweep)?);
-    points.retain(|point| {
-        point.collision == collision && point.solid == solid && point.error > LEAST_ERROR
-    });
+    let mut points = committed()?;
+    points.retain(|point| point.collision == collision && point.solid == solid);
     let distance = |point: &GrainPoint| {
         let ratio = |a: f64, b: f64| (a / b).ln().powi(2);
         ratio(point.cells, cells) + ratio(point.tau - 0.5, tau - 0.5) + ratio(point.drag, drag)
@@ -126,7 +121,8 @@ pub fn of_walls(models: &Models, collision: Preset) -> Vec<String> {
              and d'Humieres derived, and {:.4} u^2 (u in cells per step)",
             model.count,
             collision.title(),
-            model.fit.parameters[0], model.fit.parameters[1]
+            model.parameters[0],
+            model.parameters[1]
         )],
         None => vec![
             "with Lambda = 3/16 a plane wall along the grid stands exactly half-way between nodes: only \

@@ -12,8 +12,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use nalgebra::{DMatrix, DVector};
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
 use psmrt_validation::tradeoff::measure::Runner;
+use psmrt_validation::tradeoff::parameters::{Flow, Parameters};
 
 const FILE: &str = "golden/tradeoff/random_drag.csv";
 const GRIDS: [u32; 3] = [24, 32, 40];

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use psmrt::command::say::{say, tell};
 use psmrt::quote;
+use psmrt_validation::command::coefficients::{self, CoefficientsRequest};
 use psmrt_validation::command::golden::{self, GoldenCommand};
 use psmrt_validation::command::report::{self, ReportRequest};
 use psmrt_validation::command::stability::{self, StabilityRequest};
@@ -65,6 +66,9 @@ Examples:
   cargo validate tradeoff --out golden/tradeoff"
     )]
     Tradeoff(TradeoffRequest),
+    /// Fits the error models and takes the limits anew that `psmrt check` and `psmrt plan` predict by
+    #[command(after_help = "Example:\n  cargo validate coefficients && git diff src/advice")]
+    Coefficients(CoefficientsRequest),
 }
 
 fn main() -> ExitCode {
@@ -74,6 +78,7 @@ fn main() -> ExitCode {
         Command::Golden { command } => golden::golden(&command),
         Command::Stability(request) => stability::stability(&request),
         Command::Tradeoff(request) => tradeoff::tradeoff(&request, json),
+        Command::Coefficients(request) => coefficients::make(&request, json),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

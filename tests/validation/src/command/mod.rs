@@ -1,5 +1,6 @@
 //! The commands of `cargo validate`, one a file.
 
+pub mod coefficients;
 mod environment;
 pub mod golden;
 pub mod report;

@@ -10,15 +10,14 @@ use serde_json::json;
 
 use crate::cases::CaseError;
 use crate::failure::Failure;
+use crate::tradeoff::fitting::Fits;
 use crate::tradeoff::measure::Runner;
+use crate::tradeoff::parameters::{Flow, Parameters};
 use crate::tradeoff::record::Record;
+use crate::tradeoff::row::Row;
 use crate::tradeoff::sweep::runs;
+use crate::tradeoff::trial::trials;
 use crate::tradeoff::{cost, effects, figures, tables};
-use psmrt::advice::tradeoff::evidence::{grain_points, wall_points};
-use psmrt::advice::tradeoff::model::Models;
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
-use psmrt::advice::tradeoff::row::Row;
-use psmrt::advice::tradeoff::trial::trials;
 use psmrt::command::say::{say, tell};
 use psmrt::command::write;
 use psmrt::kernel::Gpu;
@@ -110,11 +109,11 @@ fn summarise(
         save("cost.csv", "Cost of a cell update, the best of 80 rounds of 15 ms", &costs)?;
         costs
     };
-    let models = Models::fit(&grain_points(rows)?, &wall_points(rows));
+    let fits = Fits::of(rows)?;
     save(
         "fits.csv",
         "Error models (src/advice/tradeoff/model.rs) and their bands",
-        &tables::fits(&models),
+        &tables::fits(&fits),
     )?;
     save(
         "front.csv",
@@ -125,7 +124,7 @@ fn summarise(
     save("effects.csv", "What one parameter alone does to the error", &effects)?;
     let results = file("held_back_results.csv");
     if results.exists() {
-        let trials = trials(&models, &Row::of_table(&Table::read(&results)?)?)?;
+        let trials = trials(&fits.models(), &Row::of_table(&Table::read(&results)?)?)?;
         save(
             "held_back_check.csv",
             "What was held back from the fits, predicted and measured",

@@ -15,8 +15,10 @@
 //! | `touching.rs` | contacts that are hard or brief; grains that overlap; several grains in one cell |
 
 mod beds;
+pub mod frontier;
 mod lab;
 mod movers;
+mod outcome;
 mod periodic;
 pub mod record;
 mod search;
@@ -32,7 +34,7 @@ use thiserror::Error;
 use psmrt::engine::{EngineName, EngineStop, StartError};
 
 pub use lab::Lab;
-pub use psmrt::advice::stability::Outcome;
+pub use outcome::Outcome;
 pub use search::map;
 
 /// All flows.

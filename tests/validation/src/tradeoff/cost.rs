@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::cases::{Bench, CaseError};
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters};
+use crate::tradeoff::parameters::{Flow, Parameters};
 use psmrt::engine::{self, Coupled, EngineName};
 use psmrt::kernel::Gpu;
 use psmrt::scene::preset_changes;

@@ -1,7 +1,7 @@
 //! What one parameter alone does: runs beside the run that differs in nothing else and has the default.
 
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
-use psmrt::advice::tradeoff::row::Row;
+use crate::tradeoff::parameters::{Flow, Parameters, Storage};
+use crate::tradeoff::row::Row;
 use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 

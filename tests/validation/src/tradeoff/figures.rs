@@ -6,9 +6,9 @@ use psmrt_report::{Axis, Figure, Marker, Series, Style};
 use super::cost::seconds_per_update;
 use super::pareto::front;
 use crate::cases::CaseError;
-use psmrt::advice::tradeoff::parameters::{Flow, Storage};
-use psmrt::advice::tradeoff::row::Row;
-use psmrt::advice::tradeoff::trial::{Trial, score};
+use crate::tradeoff::parameters::{Flow, Storage};
+use crate::tradeoff::row::Row;
+use crate::tradeoff::trial::{Trial, score};
 use psmrt::table::Table;
 
 /// Errors below this are drawn at it: a log axis has no zero.

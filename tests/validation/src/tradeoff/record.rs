@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use crate::cases::CaseError;
-use psmrt::advice::tradeoff::parameters::Parameters;
-use psmrt::advice::tradeoff::row::Row;
+use crate::tradeoff::parameters::Parameters;
+use crate::tradeoff::row::Row;
 use psmrt::table::{Table, TableError};
 
 /// A file of rows that new ones are added to.

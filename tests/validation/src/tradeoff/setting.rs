@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use psmrt_reference::lattice::viscosity;
 
 use crate::cases::CaseError;
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
+use crate::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
 

@@ -12,7 +12,7 @@ use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
 
-use psmrt::advice::tradeoff::parameters::Storage;
+use crate::tradeoff::parameters::Storage;
 use psmrt::engine::{
     Block, BoxMeans, CellState, Coupled, DeviceError, FluidEngine, ReferenceEngine, StartError,
 };

@@ -1,6 +1,6 @@
 //! Which runs a sweep makes: cheap ones first.
 
-use psmrt::advice::tradeoff::parameters::{Flow, Parameters, Storage};
+use crate::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt_reference::collision::Preset;
 
 use Preset::{DHumieres, Srt, Trt};

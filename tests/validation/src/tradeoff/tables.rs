@@ -1,16 +1,16 @@
 //! What is made of the rows of a sweep: fits, fronts, and predictions beside measurements, as tables.
 
 use super::figures::{on_front, placed, problems};
-use psmrt::advice::tradeoff::evidence::SolidMethod;
-use psmrt::advice::tradeoff::model::Models;
-use psmrt::advice::tradeoff::parameters::COLUMNS;
-use psmrt::advice::tradeoff::row::Row;
-use psmrt::advice::tradeoff::trial::Trial;
+use super::fitting::Fits;
+use crate::tradeoff::parameters::COLUMNS;
+use crate::tradeoff::row::Row;
+use crate::tradeoff::trial::Trial;
+use psmrt::advice::tradeoff::model::SolidMethod;
 use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 
 /// The models with their parameters, standard errors and bands.
-pub fn fits(models: &Models) -> Table {
+pub fn fits(fits: &Fits) -> Table {
     let columns = [
         "model",
         "collision",
@@ -37,26 +37,26 @@ pub fn fits(models: &Models) -> Table {
         };
     // The error of a logarithm is a relative one.
     let whole = |ln: f64, error: f64| (ln.exp(), ln.exp() * error);
-    for model in &models.grains {
-        let (p, e) = (&model.fit.parameters, &model.fit.errors);
+    for (model, fit) in &fits.grains {
+        let (p, e) = (&model.parameters, &fit.errors);
         let ((a, da), (b, db)) = (whole(p[0], e[0]), whole(p[1], e[1]));
         let rows = [("a", a, da), ("b", b, db), ("m", p[2], e[2]), ("p", p[3], e[3])];
         let words = ["grains", model.collision.word(), model.solid.word()];
-        add(words, model.counts, &rows, model.scatter, model.band());
+        add(words, model.evidence.counts, &rows, model.evidence.scatter, model.band());
     }
-    if let Some(model) = &models.eps {
-        let (p, e) = (&model.fit.parameters, &model.fit.errors);
+    if let Some((model, fit)) = &fits.eps {
+        let (p, e) = (&model.parameters, &fit.errors);
         let ((a, da), (b, db)) = (whole(p[0], e[0]), whole(p[2], e[2]));
         let rows =
             [("a", a, da), ("m", p[1], e[1]), ("b", b, db), ("n", p[3], e[3]), ("q", p[4], e[4])];
         let words = ["grains", Preset::DHumieres.word(), SolidMethod::SolidFraction.word()];
-        add(words, model.counts, &rows, model.scatter, model.band());
+        add(words, model.evidence.counts, &rows, model.evidence.scatter, model.band());
     }
-    for model in &models.walls {
-        let (p, e) = (&model.fit.parameters, &model.fit.errors);
+    for (model, fit) in &fits.walls {
+        let (p, e) = (&model.parameters, &fit.errors);
         let rows = [("s", p[0], e[0]), ("c", p[1], e[1])];
         let words = ["plates", model.collision.word(), "none"];
-        add(words, [model.count, 1], &rows, model.fit.scale, model.band());
+        add(words, [model.count, 1], &rows, model.scatter, model.band());
     }
     table
 }

@@ -6,6 +6,7 @@ mod common;
 mod edges;
 
 mod acceptance;
+mod coefficients;
 mod extremes;
 mod golden;
 mod report;

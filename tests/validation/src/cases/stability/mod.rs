@@ -4,8 +4,8 @@
 pub(super) mod figures;
 
 use super::{Bench, Case, CaseError, Claim, Golden};
+use crate::stability::frontier::{Frontier, frontiers};
 use figures::draw;
-use psmrt::advice::stability::limits::{Frontier, frontiers};
 use psmrt::table::Table;
 
 /// Stability at the extremes.

@@ -5,12 +5,13 @@ use psmrt_report::{Figure, PowerLaw};
 
 use super::{Bench, Case, CaseError, Claim, Golden};
 use crate::tradeoff::effects::effects;
+use crate::tradeoff::evidence::grain_points;
 use crate::tradeoff::figures::{error_against_time, held_back, problems, ten_cate};
-use psmrt::advice::tradeoff::evidence::{SolidMethod, grain_points, wall_points};
-use psmrt::advice::tradeoff::model::Models;
-use psmrt::advice::tradeoff::parameters::{Flow, Storage};
-use psmrt::advice::tradeoff::row::Row;
-use psmrt::advice::tradeoff::trial::{Trial, score, trials};
+use crate::tradeoff::fitting::Fits;
+use crate::tradeoff::parameters::{Flow, Storage};
+use crate::tradeoff::row::Row;
+use crate::tradeoff::trial::{Trial, score, trials};
+use psmrt::advice::tradeoff::model::{Models, SolidMethod};
 use psmrt::table::Table;
 
 /// The trade-off study.
@@ -64,7 +65,7 @@ fn checked(golden: &Golden, models: &Models) -> Result<Vec<Trial>, CaseError> {
 
 fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
     let rows = sweep(golden)?;
-    let models = Models::fit(&grain_points(&rows)?, &wall_points(&rows));
+    let models = Fits::of(&rows)?.models();
     let trials = checked(golden, &models)?;
     let [[first, of_first], [hits, of]] = score(&trials);
     let widest = models.grains.iter().map(|model| model.band()).fold(0.0, f64::max);
@@ -132,7 +133,7 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
 
 fn draw(golden: &Golden, _: &Table) -> Result<Vec<Figure>, CaseError> {
     let (rows, costs) = (sweep(golden)?, golden.table("cost.csv")?);
-    let models = Models::fit(&grain_points(&rows)?, &wall_points(&rows));
+    let models = Fits::of(&rows)?.models();
     let problems = problems(&rows);
     let mut figures: Vec<Figure> =
         problems.iter().filter_map(|one| error_against_time(one, &rows, &costs)).collect();

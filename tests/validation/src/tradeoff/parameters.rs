@@ -1,6 +1,6 @@
 //! The parameters of one run, as the tables spell them.
 
-use crate::table::TableError;
+use psmrt::table::TableError;
 use psmrt_reference::collision::Preset;
 
 /// Names of the columns that a row of parameters has.

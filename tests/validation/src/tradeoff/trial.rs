@@ -1,15 +1,15 @@
 //! The configurations that were held back from the fits: what the models predict, and what was measured.
 
 use super::evidence::{grain_point, wall_point};
-use super::model::{LEAST_ERROR, Models};
 use super::parameters::Parameters;
 use super::row::Row;
-use crate::table::{Table, TableError};
+use psmrt::advice::tradeoff::model::{LEAST_ERROR, Models};
+use psmrt::table::{Table, TableError};
 
-const RESULTS: &str = include_str!("../../../golden/tradeoff/held_back_results.csv");
+const RESULTS: &str = include_str!("../../../../golden/tradeoff/held_back_results.csv");
 
-/// The list itself, part of the program.
-const LIST: &str = include_str!("../../../golden/tradeoff/held_back.csv");
+/// The list itself.
+const LIST: &str = include_str!("../../../../golden/tradeoff/held_back.csv");
 
 /// How many of the list were chosen first: bands were widened, once, after these had been run.
 const FIRST: usize = 27;

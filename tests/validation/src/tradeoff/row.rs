@@ -1,7 +1,7 @@
 //! A run of the sweep, as a row of its table.
 
 use super::parameters::{COLUMNS, Parameters};
-use crate::table::{Table, TableError};
+use psmrt::table::{Table, TableError};
 
 /// What a run gave.
 #[derive(Clone, Debug, PartialEq)]

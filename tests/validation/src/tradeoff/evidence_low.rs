@@ -1,14 +1,16 @@
 //! The runs with grains at relaxation times below those of the other models: the sweep, the study of arrays, and
 //! the beds of the study of seepage.
 
-use super::evidence::{GrainPoint, LEAST_TAU, SolidMethod, all_grain_points};
+use super::evidence::all_grain_points;
 use super::row::Row;
-use crate::table::{Table, TableError};
+use psmrt::advice::tradeoff::model::{LEAST_TAU, SolidMethod};
+use psmrt::advice::tradeoff::runs::GrainPoint;
+use psmrt::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
 
-const SEEPAGE: &str = include_str!("../../../golden/seepage/study.csv");
+const SEEPAGE: &str = include_str!("../../../../golden/seepage/study.csv");
 const FILE: &str = "golden/seepage/study.csv";
-const ARRAYS: &str = include_str!("../../../golden/sphere_arrays/literature.csv");
+const ARRAYS: &str = include_str!("../../../../golden/sphere_arrays/literature.csv");
 
 /// What the ordered beds of the study are called in the sweep, so that both count as one geometry.
 const ORDERED: &str = "seepage 0.6";
@@ -56,7 +58,7 @@ impl Bed {
         GrainPoint {
             solid: SolidMethod::Usual,
             geometry: if self.packing == "fcc" { ORDERED.to_owned() } else { self.packing.clone() },
-            source: FILE,
+            source: FILE.to_owned(),
             collision: Preset::DHumieres,
             cells: self.cells,
             tau: self.tau,

@@ -2,19 +2,17 @@
 
 use super::parameters::{Flow, Parameters, Storage};
 use super::row::Row;
-use crate::table::{Table, TableError};
+use psmrt::advice::tradeoff::model::{LEAST_TAU, SolidMethod};
+use psmrt::advice::tradeoff::runs::GrainPoint;
+use psmrt::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
 
-/// The committed rows, part of the program so that `psmrt plan` works anywhere.
-const SWEEP: &str = include_str!("../../../golden/tradeoff/sweep.csv");
-const STUDY: &str = include_str!("../../../golden/sphere_arrays/study.csv");
+/// The committed rows.
+const SWEEP: &str = include_str!("../../../../golden/tradeoff/sweep.csv");
+const STUDY: &str = include_str!("../../../../golden/sphere_arrays/study.csv");
 
 /// The grids that count: coarser ones have more than one error, and finer ones cost too much to be many.
 const LEAST_CELLS: f64 = 3.9;
-
-/// Below this relaxation time what remains beside the leak counts most, and has either sign: there
-/// `model_low.rs` speaks.
-pub const LEAST_TAU: f64 = 0.6;
 
 /// The drag of random beds is known to 1 % only (`golden/tradeoff/random_drag.csv`): their smaller errors say
 /// little.
@@ -23,57 +21,14 @@ const LEAST_OF_RANDOM: f64 = 0.05;
 /// Reynolds number above which inertia shows in the truth itself.
 const MOST_REYNOLDS: f64 = 0.06;
 
-/// How cells collide that are solid in part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SolidMethod {
-    /// Noble and Torczynski's weight, bounce-back operator.
-    Usual,
-    /// The superposition operator.
-    Superposition,
-    /// The weight `B = ε`.
-    SolidFraction,
-}
-
-impl SolidMethod {
-    /// That of some parameters; `None` for both turned at once, of which there are no runs.
-    pub fn of(parameters: &Parameters) -> Option<Self> {
-        match (&*parameters.weight, &*parameters.operator) {
-            ("NT", "bounce_back") => Some(SolidMethod::Usual),
-            ("NT", "superposition") => Some(SolidMethod::Superposition),
-            ("eps", "bounce_back") => Some(SolidMethod::SolidFraction),
-            _ => None,
-        }
+/// How the solid cells of some parameters collide; `None` for both turned at once, of which there are no runs.
+pub fn solid_method(parameters: &Parameters) -> Option<SolidMethod> {
+    match (&*parameters.weight, &*parameters.operator) {
+        ("NT", "bounce_back") => Some(SolidMethod::Usual),
+        ("NT", "superposition") => Some(SolidMethod::Superposition),
+        ("eps", "bounce_back") => Some(SolidMethod::SolidFraction),
+        _ => None,
     }
-
-    /// As tables spell it.
-    pub fn word(self) -> &'static str {
-        match self {
-            SolidMethod::Usual => "NT",
-            SolidMethod::Superposition => "superposition",
-            SolidMethod::SolidFraction => "eps",
-        }
-    }
-}
-
-/// A run with grains.
-#[derive(Clone, Debug, PartialEq)]
-pub struct GrainPoint {
-    /// How its solid cells collide.
-    pub solid: SolidMethod,
-    /// The geometry: points of one geometry share its accidents.
-    pub geometry: String,
-    /// Where it stands.
-    pub source: &'static str,
-    /// Collision of the fluid.
-    pub collision: Preset,
-    /// Cells per diameter.
-    pub cells: f64,
-    /// Relaxation time.
-    pub tau: f64,
-    /// Exact drag over Stokes' drag.
-    pub drag: f64,
-    /// Relative error of the velocity under a given force.
-    pub error: f64,
 }
 
 /// A run between plates.
@@ -110,9 +65,9 @@ pub fn grain_point(row: &Row) -> Option<GrainPoint> {
     let parameters = &row.parameters;
     let lattice = parameters.flow.lattice().map_or(parameters.flow.word(), |(name, _)| name);
     Some(GrainPoint {
-        solid: SolidMethod::of(parameters)?,
+        solid: solid_method(parameters)?,
         geometry: format!("{lattice} {}", parameters.geometry),
-        source: "golden/tradeoff/sweep.csv",
+        source: "golden/tradeoff/sweep.csv".to_owned(),
         collision: parameters.collision,
         cells: parameters.cells_per_diameter()?,
         tau: parameters.tau,
@@ -190,7 +145,7 @@ fn study() -> Result<Vec<GrainPoint>, TableError> {
         points.push(GrainPoint {
             solid: SolidMethod::Usual,
             geometry: format!("{lattice} {fraction}"),
-            source: "golden/sphere_arrays/study.csv",
+            source: "golden/sphere_arrays/study.csv".to_owned(),
             collision,
             cells: row.number("cells_per_diameter")?,
             tau: row.number("tau")?,
