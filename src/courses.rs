@@ -89,7 +89,7 @@ struct Passage {
 
 /// The spheres that are not free, where they are at the start.
 fn held(scene: &Scene) -> Vec<(usize, Grain)> {
-    let is_free = |number: usize| scene.free.as_ref().is_some_and(|part| !part.grains[number].held);
+    let is_free = |number: usize| scene.free.as_ref().is_some_and(|part| part.moves_solid(number));
     let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids).enumerate();
     solids
         .filter(|&(number, _)| !is_free(number))
@@ -97,6 +97,7 @@ fn held(scene: &Scene) -> Vec<(usize, Grain)> {
             Shape::Sphere { radius } => {
                 Some((number, Grain::sphere(solid.centre, radius, 1.0).moving(solid.velocity)))
             }
+            // They stay, and grains pass through them: contacts are those of spheres.
             Shape::Cells { .. } => None,
         })
         .collect()

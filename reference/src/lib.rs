@@ -13,7 +13,7 @@
 //! | Eqs. 2, 3, `f_eq`, `m_eq` | equilibria | [`equilibrium`] |
 //! | Eqs. 4, 6 | PS-SRT, PS-MRT: fluid and solid part of a cell | [`cell_collision`] |
 //! | Eq. 5, `B` | the solid's collision and its weight, force on the solid | [`partial_saturation`] |
-//! | `epsilon` | solid fraction of a sphere in a cell | [`coverage`] |
+//! | `epsilon` | solid fraction of a sphere in a cell | [`coverage`]; what each shape covers: [`shapes`] |
 //! | | how the fluid starts | [`start`] |
 //! | | order of operations in a step | [`solver`] |
 //! | section 4, contact | Voigt, Coulomb, motion, packing (DEM) | [`grains`] |
@@ -45,6 +45,7 @@ pub mod partial_saturation;
 pub mod planes;
 pub mod rates;
 pub mod setup;
+pub mod shapes;
 pub mod solids;
 pub mod solver;
 pub mod start;

@@ -1,4 +1,4 @@
-//! Solids in the fluid: vocabulary that every engine shares.
+//! Solids in the fluid: vocabulary that every engine shares. What a shape is like: [`crate::shapes`].
 
 use crate::lattice::Vec3;
 use thiserror::Error;
@@ -86,11 +86,6 @@ impl Solid {
     /// Whether it moves or spins.
     pub fn has_velocity(&self) -> bool {
         self.velocity != Vec3::zeros() || self.angular_velocity != Vec3::zeros()
-    }
-
-    /// Whether the solid's cells change from step to step.
-    pub fn moves(&self) -> bool {
-        matches!(self.shape, Shape::Sphere { .. }) && self.velocity != Vec3::zeros()
     }
 
     /// Errors unless the numbers of solid number `solid` can be used in a domain of `cell_count` cells.

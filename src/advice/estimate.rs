@@ -24,7 +24,7 @@ pub(crate) mod spheres;
 pub(crate) mod velocity;
 pub(crate) mod warnings;
 
-use psmrt_reference::solids::Shape;
+use psmrt_reference::solids::Solid;
 use serde::Serialize;
 
 pub use self::models::models;
@@ -64,10 +64,7 @@ fn number(name: &'static str, value: f64, unit: &'static str, note: impl Into<St
 /// Diameters in cells, smallest and largest, if there are grains.
 fn diameters(scene: &Scene) -> Option<(f64, f64)> {
     let solids = &scene.setup.solid_phase.as_ref()?.solids;
-    let all = solids.iter().filter_map(|solid| match solid.shape {
-        Shape::Sphere { radius } => Some(2.0 * radius),
-        Shape::Cells { .. } => None,
-    });
+    let all = solids.iter().map(Solid::diameter);
     let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(l, h), d| (l.min(d), h.max(d)));
     (high > 0.0).then_some((low, high))
 }

@@ -11,7 +11,7 @@ use psmrt_reference::directions::Q;
 use psmrt_reference::drive::Drive;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
-use psmrt_reference::guard::Guard;
+use psmrt_reference::guard::{Cause, Guard, Stopped};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
@@ -126,8 +126,8 @@ impl Coupled {
 
     /// Moves the solids after a step, free or as prescribed.
     fn move_solids(&mut self) -> Result<(), EngineStop> {
-        let solids =
-            if self.grains.is_some() { self.moved_grains()? } else { self.moved_as_prescribed() };
+        let mut solids = self.moved_as_prescribed();
+        self.move_grains(&mut solids)?;
         Ok(self.fluid.place_solids(solids)?)
     }
 
@@ -140,9 +140,10 @@ impl Coupled {
         solids
     }
 
-    /// Moves the free grains under the loads of the last step.
-    fn moved_grains(&mut self) -> Result<Vec<Solid>, EngineStop> {
-        let Some(Grains { moving, .. }) = &mut self.grains else { return Ok(Vec::new()) };
+    /// Moves the free grains under the loads of the last step, and puts those of `solids` that are grains where these
+    /// are now.
+    fn move_grains(&mut self, solids: &mut [Solid]) -> Result<(), EngineStop> {
+        let Some(Grains { moving, part }) = &mut self.grains else { return Ok(()) };
         let loads = match (moving.settings().gravity, self.fluid.setup().body_force) {
             (Some(Gravity::Balanced { .. }), Some(g)) => {
                 let (loads, displaced) = self.fluid.loads_with_displaced()?;
@@ -150,19 +151,19 @@ impl Coupled {
             }
             _ => self.fluid.loads()?,
         };
+        let loads: Vec<Load> = part.solids.iter().map(|&solid| loads[solid]).collect();
         let since = self.profile.is_some().then(Beginning::now);
         moving.step(&loads).map_err(CoupledStop::from)?;
-        let solids = moving.solids();
+        let moved = moving.solids();
         if let (Some(profile), Some(since)) = (&mut self.profile, since) {
             profile.grains.add(since);
         }
-        match solids.iter().position(|solid| solid.centre.amax() > FARTHEST) {
-            None => Ok(solids),
-            Some(grain) => {
-                let position = solids[grain].centre.into();
-                Err(CoupledStop::Grains(GrainError::NotFinite { grain, position }).into())
-            }
+        if let Some(grain) = moved.iter().position(|solid| solid.centre.amax() > FARTHEST) {
+            let position = moved[grain].centre.into();
+            return Err(CoupledStop::Grains(GrainError::NotFinite { grain, position }).into());
         }
+        part.solids.iter().zip(moved).for_each(|(&number, solid)| solids[number] = solid);
+        Ok(())
     }
 
     /// Looks for a broken state now, whatever the step. Errors as [`Self::step`].
@@ -170,7 +171,7 @@ impl Coupled {
         let sight = self.fluid.sight(&self.guard)?;
         let judged = self.guard.judge(self.fluid.setup(), self.steps, &sight);
         let explained = judged.map_err(|stopped| match &self.grains {
-            Some(Grains { moving, .. }) => moving.explain(stopped),
+            Some(Grains { moving, part }) => by_solid(moving.explain(stopped), &part.solids),
             None => stopped,
         });
         Ok(explained.map_err(CoupledStop::from)?)
@@ -237,7 +238,12 @@ impl Coupled {
         phase.map_or_else(Vec::new, |phase| phase.solids.clone())
     }
 
-    /// All grains with their contacts, if some are free; grain number `i` is solid number `i`.
+    /// The number of each grain among the solids, if some are free.
+    pub fn solids_of_grains(&self) -> &[usize] {
+        self.grains.as_ref().map_or(&[], |grains| &grains.part.solids)
+    }
+
+    /// All grains with their contacts, if some are free.
     pub fn free_grains(&self) -> Option<&GrainSystem> {
         self.grains.as_ref().map(|grains| grains.moving.system())
     }
@@ -253,5 +259,15 @@ impl Coupled {
     pub fn displaced(&self) -> Vec<f64> {
         let found = self.observed(self.fluid.displaced());
         found.unwrap_or_else(|| vec![f64::NAN; self.solids().len()])
+    }
+}
+
+/// The stop with the number of the solid where the grains have given theirs.
+fn by_solid(stopped: Stopped, solids: &[usize]) -> Stopped {
+    match stopped.cause {
+        Cause::LightGrain { solid: grain, ratio } => {
+            Stopped { cause: Cause::LightGrain { solid: solids[grain], ratio }, ..stopped }
+        }
+        _ => stopped,
     }
 }

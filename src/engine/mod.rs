@@ -57,6 +57,18 @@ pub enum StartError {
     /// The grains.
     #[error(transparent)]
     Grains(#[from] GrainError),
+    /// A grain that is none of the solids.
+    #[error(
+        "grain {grain} is to be solid {solid} of {solids} (counted from 0): each grain must be a solid of its own"
+    )]
+    NoSolid {
+        /// Number of the grain.
+        grain: usize,
+        /// The solid that it is to be.
+        solid: usize,
+        /// How many solids there are.
+        solids: usize,
+    },
     /// The drive.
     #[error(transparent)]
     Drive(#[from] DriveError),

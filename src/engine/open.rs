@@ -1,9 +1,12 @@
 //! The engine of a scene, by its name.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
+use psmrt_reference::coupling::FreeGrains;
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
+use psmrt_reference::solids::Solid;
 
 use super::coupled::{Coupled, Grains};
 use super::{DeviceError, EngineName, FluidEngine, KernelEngine, ReferenceEngine, StartError};
@@ -65,8 +68,28 @@ pub fn open(
     Ok(engine)
 }
 
+/// Puts the solids that are grains where these are. Errors if they are no solids, each one of its own.
+fn place_grains(
+    part: &FreePart,
+    moving: &FreeGrains,
+    solids: &mut [Solid],
+) -> Result<(), StartError> {
+    let grains = moving.solids();
+    let mut known = HashSet::new();
+    for (grain, &solid) in part.solids.iter().enumerate() {
+        if solid >= solids.len() || !known.insert(solid) || grain >= grains.len() {
+            return Err(StartError::NoSolid { grain, solid, solids: solids.len() });
+        }
+    }
+    if let Some(grain) = (part.solids.len()..grains.len()).next() {
+        return Err(StartError::NoSolid { grain, solid: grain, solids: part.solids.len() });
+    }
+    part.solids.iter().zip(grains).for_each(|(&number, grain)| solids[number] = grain);
+    Ok(())
+}
+
 /// A fluid whose density and velocity at each cell centre are `state(centre)`; `free` says how the grains
-/// move, if some are free: they are the solids then. `gpu` as for [`open`], but any adapter will do. Errors if the
+/// move, if some are free, and which of the solids they are. `gpu` as for [`open`], but any adapter will do. Errors if the
 /// engine cannot take it.
 pub fn starting_from(
     name: EngineName,
@@ -80,9 +103,8 @@ pub fn starting_from(
     let grains = match free {
         Some(part) => {
             let moving = part.free_grains(&setup.domain)?;
-            if let Some(phase) = &mut setup.solid_phase {
-                phase.solids = moving.solids();
-            }
+            let solids = setup.solid_phase.as_mut().map(|phase| &mut phase.solids);
+            place_grains(part, &moving, solids.unwrap_or(&mut Vec::new()))?;
             Some(Grains { moving, part: part.clone() })
         }
         None => None,

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::solids::{Load, Shape};
+use psmrt_reference::solids::Load;
 
 use super::csv::{Mark, TableFile, Value};
 use super::{between, grain_means, snapshots};
@@ -216,13 +216,9 @@ fn rows_of(scene: &Scene, engine: &Coupled, loads: &[Load]) -> Vec<[f64; 20]> {
         None => vec![Vec3::zeros(); solids.len()],
     };
     for (number, (solid, load)) in solids.iter().zip(loads).enumerate() {
-        let diameter = match solid.shape {
-            Shape::Sphere { radius } => 2.0 * radius,
-            Shape::Cells { .. } => 0.0,
-        };
         let mut row = [0.0; 20];
         row[0] = number as f64;
-        row[4] = diameter * units.si_dx;
+        row[4] = solid.diameter() * units.si_dx;
         for (first, vector) in [
             (1, solid.centre * units.si_dx),
             (5, solid.velocity * units.si_velocity()),

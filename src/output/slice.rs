@@ -68,6 +68,7 @@ fn outlines(scene: &Scene, engine: &Coupled, normal: usize, place: f64) -> Vec<[
     let [right, up] = [[1, 2], [0, 2], [0, 1]][normal];
     let mut circles = Vec::new();
     for solid in engine.solids() {
+        // What is given cell by cell is seen as cells.
         let Shape::Sphere { radius } = solid.shape else { continue };
         let images = |axis: usize, reach: f64| -> Vec<f64> {
             let (length, at) = (domain.cells()[axis] as f64, solid.centre[axis]);

@@ -4,7 +4,6 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use psmrt_reference::domain::Domain;
-use psmrt_reference::solids::Load;
 
 use super::vtk::Array;
 use super::{atomic, grain_means, npy, vtk};
@@ -147,12 +146,16 @@ fn grains(scene: &Scene, engine: &Coupled, path: &Path) -> io::Result<()> {
         Array::new("torque (N m)", 3, columns(14..17)),
     ];
     if let Some(system) = engine.free_grains() {
-        let counts = grain_means::contacts_of_each(&system.state());
-        let si_force = scene.units.si_force();
-        let force = move |load: &Load| <[f64; 3]>::from(load.force * si_force);
-        arrays.push(Array::new("contacts", 1, counts.into_iter().map(f64::from)));
-        let forces = system.contact_loads().iter().flat_map(force);
-        arrays.push(Array::new("contact force (N)", 3, forces));
+        // A solid that is no grain has no contacts.
+        let (mut counts, mut forces) = (vec![0.0; rows.len()], vec![[0.0; 3]; rows.len()]);
+        let of_grains = grain_means::contacts_of_each(&system.state());
+        let contacts = of_grains.into_iter().zip(system.contact_loads());
+        for (&solid, (count, load)) in engine.solids_of_grains().iter().zip(contacts) {
+            counts[solid] = f64::from(count);
+            forces[solid] = (load.force * scene.units.si_force()).into();
+        }
+        arrays.push(Array::new("contacts", 1, counts.into_iter()));
+        arrays.push(Array::new("contact force (N)", 3, forces.into_iter().flatten()));
     }
     atomic::write(path, |out| vtk::points(out, rows.len(), arrays))
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::{Folder, psmrt, stdout};
 use crate::common::{Budget, golden_rows};
+use crate::mixed;
 use crate::trials::{self, Claim, EngineClaim};
 use psmrt::engine::{Block, Coupled, EngineName, EngineStop, open};
 use psmrt::scene::Scene;
@@ -382,8 +383,24 @@ fn box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available() {
     assert!(message.contains("larger dx"), "{message}");
 }
 
+fn grains_among_other_solids_move_the_same_in_whatever_order_they_are_listed(engine: EngineName) {
+    let mut budget = Budget::kernel(600_000);
+    let gpu = trials::device_of(engine);
+    // Single precision of forces, should another order of sums round them otherwise, over the mass of a grain.
+    mixed::grains_among_other_solids_move_the_same_in_whatever_order_they_are_listed(
+        engine,
+        gpu.as_ref(),
+        &mut budget,
+        1e-8,
+    );
+}
+
 /// What is claimed of each engine.
 pub const CLAIMS: &[EngineClaim] = &[
+    (
+        "grains_among_other_solids_move_the_same_in_whatever_order_they_are_listed",
+        grains_among_other_solids_move_the_same_in_whatever_order_they_are_listed,
+    ),
     ("free_grains_move_as_in_the_oracle", free_grains_move_as_in_the_oracle),
     ("balanced_grains_settle_as_in_the_oracle", balanced_grains_settle_as_in_the_oracle),
     (

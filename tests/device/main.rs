@@ -12,6 +12,8 @@ mod conformance;
 mod driven;
 #[path = "../edges/mod.rs"]
 mod edges;
+#[path = "../mixed/mod.rs"]
+mod mixed;
 #[path = "../parity/mod.rs"]
 mod parity;
 #[path = "../trials/mod.rs"]

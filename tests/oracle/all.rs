@@ -39,6 +39,7 @@ mod non_reflecting;
 mod poiseuille;
 mod ps_channel_wall;
 mod reproducible;
+mod shapes;
 mod sound;
 mod sphere_arrays;
 mod stokes_settling;

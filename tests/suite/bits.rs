@@ -41,7 +41,7 @@ impl Oracle {
             None => {
                 Oracle::Fluid(Box::new(Solver::starting_from(scene.setup.clone(), start).unwrap()))
             }
-            Some(FreePart { setup, grains, planes, settings }) => {
+            Some(FreePart { setup, grains, planes, settings, .. }) => {
                 let mut fluid = scene.setup.clone();
                 fluid.solid_phase.as_mut().unwrap().solids.clear();
                 let solver =

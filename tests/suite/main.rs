@@ -14,10 +14,13 @@ mod conformance;
 mod driven;
 #[path = "../edges/mod.rs"]
 mod edges;
+#[path = "../mixed/mod.rs"]
+mod mixed;
 
 mod agreement;
 mod bad_scenes;
 mod bits;
+mod bodies;
 mod cli_folder;
 mod cli_info;
 mod cli_memory;

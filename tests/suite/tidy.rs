@@ -256,7 +256,9 @@ fn kernel_takes_from_the_reference_only_words_for_set_ups() {
             uses += 1;
         }
         // Methods that compute would come along with the words.
-        for method in [".weight(", "exact_fraction", "share_weight", ".diagonal(", ".fraction("] {
+        for method in
+            [".weight(", "exact_fraction", "share_weight", ".diagonal(", ".fraction(", ".covered("]
+        {
             assert!(!text.contains(method), "{} calls {method}", path.display());
         }
     }

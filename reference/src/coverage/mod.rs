@@ -1,8 +1,7 @@
 //! Which cells the solids cover, and by how much.
 //!
-//! `sphere` and `sampled` give the solid fraction of one sphere in one cell; this file lists them
-//! for all solids. Along periodic axes a sphere is wrapped, image by image, so that every share
-//! carries the arm from the right image of the centre; beyond other faces it is cut off.
+//! `sphere` and `sampled` give the solid fraction of one sphere in one cell, [`Solid::covered`] the cells that one solid
+//! covers; this file lists them for all solids.
 
 mod sampled;
 mod sphere;
@@ -12,7 +11,8 @@ pub use sphere::exact_fraction;
 
 use crate::domain::Domain;
 use crate::lattice::Vec3;
-use crate::solids::{Shape, Solid};
+use crate::shapes::Covered;
+use crate::solids::Solid;
 use rayon::prelude::*;
 
 /// How the solid fraction of a sphere in a cell is found.
@@ -83,16 +83,16 @@ impl Coverage {
     /// Lists it again for the solids that have moved, visiting only cells that these touch.
     pub fn update(&mut self, domain: &Domain, solids: &[Solid], rule: CoverageRule) {
         let touched = &self.touched;
-        let covered: Vec<(usize, Vec<(usize, Share)>)> = solids
+        let covered: Vec<(usize, Vec<Covered>)> = solids
             .par_iter()
             .enumerate()
             .filter(|(number, solid)| touched[*number].0 != Some(solid.centre))
-            .map(|(number, solid)| (number, covered_by(domain, number, solid, rule)))
+            .map(|(number, solid)| (number, solid.covered(domain, rule)))
             .collect();
         for (number, shares) in covered {
             self.remove(number);
-            for (cell, share) in shares {
-                self.add(cell, share);
+            for Covered { cell, epsilon, arm } in shares {
+                self.add(cell, Share { solid: number, epsilon, arm });
             }
             self.touched[number].0 = Some(solids[number].centre);
         }
@@ -142,58 +142,4 @@ impl Coverage {
         shares.insert(position, share);
         self.touched[share.solid].1.push(cell);
     }
-}
-
-/// The cells that one solid covers.
-fn covered_by(
-    domain: &Domain,
-    number: usize,
-    solid: &Solid,
-    rule: CoverageRule,
-) -> Vec<(usize, Share)> {
-    match &solid.shape {
-        Shape::Sphere { radius } => covered_by_sphere(domain, number, &solid.centre, *radius, rule),
-        Shape::Cells { fractions } => fractions
-            .iter()
-            .filter(|(_, epsilon)| *epsilon > 0.0)
-            .map(|&(cell, epsilon)| {
-                let arm = domain.centre(domain.coordinates(cell)) - solid.centre;
-                (cell, Share { solid: number, epsilon, arm })
-            })
-            .collect(),
-    }
-}
-
-fn covered_by_sphere(
-    domain: &Domain,
-    solid: usize,
-    centre: &Vec3,
-    radius: f64,
-    rule: CoverageRule,
-) -> Vec<(usize, Share)> {
-    let mut covered = Vec::new();
-    let range = |axis: usize| {
-        domain.within(axis, cell_at(centre[axis] - radius)..=cell_at(centre[axis] + radius))
-    };
-    for z in range(2) {
-        for y in range(1) {
-            for x in range(0) {
-                let Some(inside) = domain.locate([x, y, z]) else { continue };
-                // The cell's centre before wrapping: the arm is that of this image.
-                let cell_centre = Vec3::new(x as f64, y as f64, z as f64).add_scalar(0.5);
-                let arm = cell_centre - centre;
-                let epsilon = rule.fraction(&-arm, radius);
-                if epsilon > 0.0 {
-                    covered.push((domain.index(inside), Share { solid, epsilon, arm }));
-                }
-            }
-        }
-    }
-    covered
-}
-
-/// The cell that contains a coordinate along an axis.
-#[expect(clippy::cast_possible_truncation, reason = "beyond 2^63 it saturates")]
-fn cell_at(coordinate: f64) -> i64 {
-    coordinate.floor() as i64
 }

@@ -4,7 +4,7 @@ use super::Guard;
 use crate::domain::{FACE_NAMES, Face};
 use crate::lattice::viscosity;
 use crate::setup::Setup;
-use crate::solids::{Shape, Solid};
+use crate::solids::Solid;
 use std::fmt;
 use thiserror::Error;
 
@@ -279,10 +279,7 @@ fn strongest_inlet(setup: &Setup) -> Option<(&'static str, f64)> {
 /// The solid whose centre or surface is fastest, and its speed.
 fn fastest_solid(setup: &Setup) -> Option<(usize, f64)> {
     let solids = &setup.solid_phase.as_ref()?.solids;
-    let speed = |solid: &Solid| match solid.shape {
-        Shape::Sphere { radius } => solid.velocity.norm() + radius * solid.angular_velocity.norm(),
-        Shape::Cells { .. } => solid.velocity.norm(),
-    };
+    let speed = |solid: &Solid| solid.top_speed(&setup.domain);
     solids.iter().map(speed).enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 

@@ -1,6 +1,6 @@
 //! The memory that a scene needs, array by array, against what there is.
 
-use psmrt_reference::solids::Shape;
+use psmrt_reference::solids::Solid;
 
 use crate::engine::EngineName;
 use crate::machine::{self, Available};
@@ -36,12 +36,7 @@ pub fn parts(scene: &Scene) -> Vec<Part> {
     // Before and after streaming.
     let mut parts = vec![Part { what: "populations", bytes: 2 * 19 * real * cells }];
     if let Some(phase) = &scene.setup.solid_phase {
-        let reach = |shape: &Shape| match shape {
-            // All cells that it touches lie in a sphere that is larger by half a cell's diagonal.
-            Shape::Sphere { radius } => 4.0 / 3.0 * std::f64::consts::PI * (radius + 0.867).powi(3),
-            Shape::Cells { .. } => 0.0,
-        };
-        let touched: f64 = phase.solids.iter().map(|solid| reach(&solid.shape)).sum();
+        let touched: f64 = phase.solids.iter().map(Solid::most_cells).sum();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let touched = (touched as u64).min(2 * cells);
         let bytes = 4 * cells + BYTES_PER_COVERED_CELL * touched;

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
-use psmrt_reference::solids::Shape;
 
 use super::spheres::spheres;
 use super::{diameters, grains};
@@ -37,10 +36,7 @@ fn named(scene: &Scene) -> f64 {
         _ => 0.0,
     });
     let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
-    let solids = solids.map(|solid| match solid.shape {
-        Shape::Sphere { radius } => solid.velocity.norm() + radius * solid.angular_velocity.norm(),
-        Shape::Cells { .. } => solid.velocity.norm(),
-    });
+    let solids = solids.map(|solid| solid.top_speed(&scene.setup.domain));
     faces.chain(solids).chain([scene.initial_velocity.norm()]).fold(0.0, f64::max)
 }
 

@@ -132,11 +132,17 @@ impl Model {
         plus(vector(&solid.velocity), turning)
     }
 
-    /// What spheres cover, cell by cell.
+    /// What solids cover, cell by cell.
     fn cover(&self, domain: &Domain, solids: &[Solid]) -> Vec<Vec<Share>> {
         let share = |cell: usize, number: usize| {
-            let Shape::Sphere { radius } = solids[number].shape else { return None };
             let mut arm = domain.centre(domain.coordinates(cell)) - solids[number].centre;
+            let radius = match &solids[number].shape {
+                Shape::Sphere { radius } => *radius,
+                Shape::Cells { fractions } => {
+                    let given = fractions.iter().find(|(place, _)| *place == cell);
+                    return given.filter(|given| given.1 > 0.0).map(|given| (number, given.1, arm));
+                }
+            };
             for axis in (0..3).filter(|&axis| domain.is_periodic(axis)) {
                 let length = domain.cells()[axis] as f64;
                 arm[axis] -= length * (arm[axis] / length).round();

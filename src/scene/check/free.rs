@@ -25,8 +25,11 @@ use crate::units::Units;
 pub struct FreePart {
     /// Contact law, periodic sides, lubrication, sub-steps.
     pub setup: GrainSetup,
-    /// The grains at the start, in the order of the solids of the fluid's set-up.
+    /// The grains at the start.
     pub grains: Vec<Grain>,
+    /// Which of the solids of the fluid's set-up each grain is. The others stay, or move as prescribed, and grains do
+    /// not touch them.
+    pub solids: Vec<usize>,
     /// The faces of the domain that hold grains back.
     pub planes: Vec<Plane>,
     /// Gravity, the fluid inside the grains, averaging.
@@ -39,6 +42,11 @@ impl FreePart {
     pub fn free_grains(&self, domain: &Domain) -> Result<FreeGrains, GrainError> {
         let (grains, planes) = (self.grains.clone(), self.planes.clone());
         FreeGrains::new(domain, self.setup, grains, planes, self.settings)
+    }
+
+    /// Whether solid number `solid` is a grain that is free to move.
+    pub fn moves_solid(&self, solid: usize) -> bool {
+        self.solids.iter().zip(&self.grains).any(|(&known, grain)| known == solid && !grain.held)
     }
 
     /// Sub-steps of the grains in a time step.
@@ -84,7 +92,9 @@ pub(super) fn free_part(
         average_loads: coupling.average_loads,
         ..CouplingSettings::default()
     };
-    let part = FreePart { setup, grains, planes, settings };
+    // All solids of a scene are grains, in the same order.
+    let solids = (0..grains.len()).collect();
+    let part = FreePart { setup, grains, solids, planes, settings };
     part.free_grains(domain).map_err(|error| trouble(&error, list))?;
     Ok(Some(part))
 }

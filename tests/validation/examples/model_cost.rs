@@ -275,6 +275,7 @@ fn free(side: usize, pitch: f64, lubricated: bool) -> Result<FreePart, Failure> 
     let sides = PeriodicBox::all([side as f64; 3]);
     Ok(FreePart {
         setup: GrainSetup { sides, lubrication, ..GrainSetup::new(law) },
+        solids: (0..grains.len()).collect(),
         grains,
         planes: Vec::new(),
         settings: CouplingSettings::default(),

@@ -83,6 +83,7 @@ fn run(lab: &Lab, line: &Line, ratio: f64) -> Result<Found, LabError> {
     let free = FreePart {
         setup: GrainSetup { sides, ..GrainSetup::new(law) },
         grains: vec![grain],
+        solids: vec![0],
         planes: Vec::new(),
         settings: CouplingSettings {
             internal_fluid: if is_lagged { InternalFluid::Lagged } else { InternalFluid::Kept },

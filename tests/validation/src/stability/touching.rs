@@ -116,6 +116,7 @@ fn contact(lab: &Lab, line: &Line, duration: f64) -> Result<Found, LabError> {
     let free = FreePart {
         setup: GrainSetup { substeps: Substeps::Fixed(substeps), ..grain_setup },
         grains: vec![grain],
+        solids: vec![0],
         planes: vec![floor],
         settings: CouplingSettings {
             gravity: Some(Gravity::Reduced { acceleration: Vec3::new(0.0, 0.0, -g) }),
@@ -148,6 +149,7 @@ fn overlap(lab: &Lab, line: &Line, overlap: f64) -> Result<Found, LabError> {
     let free = FreePart {
         setup: GrainSetup { sides: PeriodicBox::all([24.0, 12.0, 12.0]), ..GrainSetup::new(law) },
         grains: both,
+        solids: vec![0, 1],
         planes: Vec::new(),
         settings: CouplingSettings::default(),
     };
