@@ -13,7 +13,7 @@
 //! | [`courses`] | what prescribed spheres run into |
 //! | [`stopped_grain`] | why a run stopped at a free grain |
 //! | [`command`] | the commands of the command line |
-//! | [`packing`] | numbers and sizes of grains to pack |
+//! | [`packing`] | packings, suspensions and settled beds of grains to start from |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
 //! | [`table`] | rows of named columns, as CSV files hold them |
 //! | [`units`] | SI units and lattice units |

@@ -7,8 +7,8 @@ use psmrt_reference::coverage::{Coverage, CoverageRule};
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::law::ContactLaw;
-use psmrt_reference::grains::packing::suspension::RandomSuspension;
 use psmrt_reference::grains::plane::Plane;
+use psmrt_reference::grains::random::SplitMix64;
 use psmrt_reference::grains::setup::GrainSetup;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Load;
@@ -28,18 +28,8 @@ fn domain() -> Domain {
 
 /// Grains spread over the lowest `height` cells that sink at the Stokes velocity at tau = 1.
 fn grains(height: f64) -> FreeGrains {
-    let lengths = [160.0, 160.0, height];
-    let wanted = RandomSuspension {
-        lengths,
-        periodic: [false; 3],
-        radii: vec![RADIUS; COUNT],
-        gap: 0.0,
-        seed: 1,
-    };
-    let packing = wanted.make().expect("dilute enough");
-    let sinking = |grain: &Grain| {
-        Grain::sphere(grain.position, RADIUS, 2.5).moving(Vec3::new(0.0, 0.0, -1.4e-3))
-    };
+    let sinking =
+        |place: Vec3| Grain::sphere(place, RADIUS, 2.5).moving(Vec3::new(0.0, 0.0, -1.4e-3));
     let mass = 2.5 * sphere_volume(RADIUS);
     let law = ContactLaw::from_duration_and_restitution(10.0, 0.5, 0.5 * mass)
         .and_then(|law| law.with_friction(0.5))
@@ -48,8 +38,30 @@ fn grains(height: f64) -> FreeGrains {
     let planes = Plane::box_walls(Vec3::zeros(), high, &[0, 1, 2], law);
     let gravity = Some(Gravity::Reduced { acceleration: Vec3::new(0.0, 0.0, -1.7e-4) });
     let settings = CouplingSettings { gravity, ..CouplingSettings::default() };
-    let grains = packing.grains.iter().map(sinking).collect();
+    let grains = places(height).into_iter().map(sinking).collect();
     FreeGrains::new(&domain(), GrainSetup::new(law), grains, planes, settings).expect("valid")
+}
+
+/// Places on a cubic lattice, each off it by as much as lets no two grains overlap.
+fn places(height: f64) -> Vec<Vec3> {
+    let size = Vec3::new(160.0, 160.0, height);
+    let edge = (size.product() / COUNT as f64).cbrt();
+    let counts = size.map(|length| (length / edge).ceil());
+    let step = size.component_div(&counts);
+    let free = step.map(|length| (length - 2.0 * RADIUS).max(0.0));
+    let mut random = SplitMix64::new(1);
+    let mut places = Vec::new();
+    let index = |i: f64| (0..).map(f64::from).take_while(move |&k| k < i);
+    for z in index(counts.z) {
+        for y in index(counts.y) {
+            for x in index(counts.x) {
+                let off = Vec3::from_fn(|axis, _| free[axis] * (random.unit() - 0.5));
+                places.push(Vec3::new(x + 0.5, y + 0.5, z + 0.5).component_mul(&step) + off);
+            }
+        }
+    }
+    places.truncate(COUNT);
+    places
 }
 
 fn on_threads(threads: usize) -> rayon::ThreadPool {

@@ -16,7 +16,7 @@
 //! | `epsilon` | solid fraction of a sphere in a cell | [`coverage`]; what each shape covers: [`shapes`] |
 //! | | how the fluid starts | [`start`] |
 //! | | order of operations in a step | [`solver`] |
-//! | section 4, contact | Voigt, Coulomb, motion, packing (DEM) | [`grains`] |
+//! | section 4, contact | Voigt, Coulomb, motion (DEM) | [`grains`] |
 //! | section 4, fluid on grains | free grains in the fluid | [`coupling`] |
 //!
 //! Symbols: `reference/NOTATION.md`. Departures from the printed equations, each with the test that

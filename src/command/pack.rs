@@ -5,11 +5,11 @@ use std::io::{BufWriter, ErrorKind, IsTerminal, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use crate::packing::bed::{BedSides, SettledBed};
+use crate::packing::periodic::PeriodicPacking;
+use crate::packing::{Packing, PackingError, PackingReport, radius_for};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use psmrt_reference::grains::packing::bed::{BedSides, SettledBed};
-use psmrt_reference::grains::packing::periodic::PeriodicPacking;
-use psmrt_reference::grains::packing::{Packing, PackingError, PackingReport, radius_for};
 use serde_json::json;
 
 use super::plan::part;

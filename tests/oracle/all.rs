@@ -25,7 +25,6 @@ mod grains_lubrication;
 mod grains_motion;
 mod grains_neighbours;
 mod grains_oblique;
-mod grains_packing;
 mod grains_rolling;
 mod grains_system;
 mod grains_values;

@@ -35,6 +35,7 @@ mod drive;
 mod exact_text;
 mod extremes;
 mod kernel_coverage;
+mod packing;
 mod plan;
 mod predictions;
 mod records;

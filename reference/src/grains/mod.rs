@@ -13,7 +13,6 @@
 //! | | the domain, what a set of grains is set up with, and the checks | [`setup`] |
 //! | | order of operations in a sub-step, checkpoints | [`system`] |
 //! | | whether contacts hold | [`hold`] |
-//! | | beds and suspensions to start from | [`packing`] |
 //!
 //! Units: any consistent ones (SI, or the lattice units of the fluid): nothing here has a scale of
 //! its own. Units are given as `length`, `time`, `mass` and what is made of them. Angles are radians.
@@ -26,7 +25,6 @@ pub mod law;
 pub mod lubrication;
 pub mod motion;
 pub mod neighbours;
-pub mod packing;
 pub mod pairs;
 mod parallel;
 pub mod plane;

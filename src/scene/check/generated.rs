@@ -2,12 +2,12 @@
 //!
 //! They are made anew when a run is resumed: the same seed gives the same bits.
 
+use crate::packing::bed::{BedSides, SettledBed};
+use crate::packing::periodic::PeriodicPacking;
+use crate::packing::suspension::RandomSuspension;
+use crate::packing::{Packing, PackingError};
 use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
-use psmrt_reference::grains::packing::bed::{BedSides, SettledBed};
-use psmrt_reference::grains::packing::periodic::PeriodicPacking;
-use psmrt_reference::grains::packing::suspension::RandomSuspension;
-use psmrt_reference::grains::packing::{Packing, PackingError};
 
 use super::Trouble;
 use super::contact::DEFAULT_FRICTION;

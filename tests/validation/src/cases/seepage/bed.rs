@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
+use psmrt::packing::contacts;
 use psmrt_reference::collision::Preset;
 use psmrt_reference::grains::grain::Grain;
-use psmrt_reference::grains::packing::contacts;
 use psmrt_reference::grains::setup::PeriodicBox;
 use psmrt_reference::lattice::viscosity;
 use psmrt_reference::solids::{Shape, Solid};

@@ -4,13 +4,11 @@
 //! a domain with any periodic axes and walls, up to solid fractions near 0.3 (it jams at 0.38); denser
 //! periodic ones are made by [`super::periodic`].
 
-use crate::grains::grain::Grain;
-use crate::grains::packing::{
-    Packing, PackingError, PackingReport, check_radii, contacts, porosity,
-};
-use crate::grains::random::SplitMix64;
-use crate::grains::setup::PeriodicBox;
-use crate::lattice::Vec3;
+use crate::packing::{Packing, PackingError, PackingReport, check_radii, contacts, porosity};
+use psmrt_reference::grains::grain::Grain;
+use psmrt_reference::grains::random::SplitMix64;
+use psmrt_reference::grains::setup::PeriodicBox;
+use psmrt_reference::lattice::Vec3;
 use std::collections::HashMap;
 
 /// Places tried for a grain before the attempt is given up.

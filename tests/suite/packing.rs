@@ -1,11 +1,9 @@
 //! Packings: what is asked for is what comes out, the same for the same seed.
 
+use psmrt::packing::bed::{BedSides, SettledBed};
+use psmrt::packing::periodic::PeriodicPacking;
+use psmrt::packing::{Packing, TOUCHING, count_for, jamming_porosity, porosity, radius_for};
 use psmrt_reference::grains::grain::Grain;
-use psmrt_reference::grains::packing::bed::{BedSides, SettledBed};
-use psmrt_reference::grains::packing::periodic::PeriodicPacking;
-use psmrt_reference::grains::packing::{
-    Packing, TOUCHING, count_for, jamming_porosity, porosity, radius_for,
-};
 use psmrt_reference::grains::setup::PeriodicBox;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;

@@ -2,17 +2,20 @@
 //! ([`periodic`]) and a dilute random suspension ([`suspension`]), each from a seed, and what can be
 //! said of them.
 //!
-//! The same seed gives the same packing, to the last bit, on any number of threads.
+//! How many grains, and of which sizes, says `sizes.rs`. The same seed gives the same packing, to the last bit, on any number of threads.
 
 pub mod bed;
 pub mod periodic;
+mod sizes;
 pub mod suspension;
 
-use crate::grains::grain::{Grain, sphere_volume};
-use crate::grains::law::LawError;
-use crate::grains::neighbours::candidates;
-use crate::grains::plane::Plane;
-use crate::grains::setup::{GrainError, PeriodicBox};
+pub use sizes::{Amount, Sizes};
+
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::law::LawError;
+use psmrt_reference::grains::neighbours::candidates;
+use psmrt_reference::grains::plane::Plane;
+use psmrt_reference::grains::setup::{GrainError, PeriodicBox};
 use std::f64::consts::PI;
 use thiserror::Error;
 

@@ -6,16 +6,16 @@
 //! ([`jamming_porosity`]) that state exists and is reached in some hundreds of sub-steps; near it some
 //! beginnings end in a dead end, the more often the fewer grains there are, so that others are tried.
 
-use crate::grains::grain::Grain;
-use crate::grains::law::ContactLaw;
-use crate::grains::packing::{
+use crate::packing::{
     Packing, PackingError, PackingReport, check_radii, contacts, jamming_porosity, porosity,
 };
-use crate::grains::random::SplitMix64;
-use crate::grains::setup::{GrainSetup, PeriodicBox};
-use crate::grains::system::GrainSystem;
-use crate::lattice::Vec3;
-use crate::solids::Load;
+use psmrt_reference::grains::grain::Grain;
+use psmrt_reference::grains::law::ContactLaw;
+use psmrt_reference::grains::random::SplitMix64;
+use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
+use psmrt_reference::grains::system::GrainSystem;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::Load;
 
 /// Drag of the medium over `√(k m)`: measured, a tenth is fastest; less lets the spheres fly about,
 /// more makes them creep.
@@ -34,7 +34,7 @@ const SCATTER: f64 = 0.01;
 const LOOK_EVERY: u32 = 10;
 
 /// A periodic packing that is wanted. Its porosity is that of these radii in this domain:
-/// [`crate::grains::packing::radius_for`] and [`crate::grains::packing::count_for`] find what fits.
+/// [`crate::packing::radius_for`] and [`crate::packing::count_for`] find what fits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PeriodicPacking {
     /// Lengths of the domain, all three axes periodic.

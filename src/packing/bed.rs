@@ -4,17 +4,15 @@
 //! under a contact law with friction, and are taken when they have come to rest. Nothing here has a
 //! scale but the mean diameter `d`: gravity and the density of the grains are 1.
 
-use crate::grains::grain::{Grain, sphere_volume};
-use crate::grains::law::ContactLaw;
-use crate::grains::packing::{
-    Packing, PackingError, PackingReport, check_radii, contacts, slice_volume,
-};
-use crate::grains::plane::Plane;
-use crate::grains::random::SplitMix64;
-use crate::grains::setup::{GrainSetup, PeriodicBox};
-use crate::grains::system::GrainSystem;
-use crate::lattice::Vec3;
-use crate::solids::Load;
+use crate::packing::{Packing, PackingError, PackingReport, check_radii, contacts, slice_volume};
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::law::ContactLaw;
+use psmrt_reference::grains::plane::Plane;
+use psmrt_reference::grains::random::SplitMix64;
+use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
+use psmrt_reference::grains::system::GrainSystem;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::Load;
 
 /// Depth, in `d`, to which the mean weight of the bed presses its lowest grains into each other.
 /// Chains of force carry a few times the mean.
