@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`scene`] | scene file (TOML, SI units) to checked scene in lattice units |
 //! | [`engine`] | what an engine can do; the oracle and the kernel as engines |
+//! | [`cpu`] | the CPU engine: the fluid on all cores, in single or double precision |
 //! | [`kernel`] | the production kernel: the fluid on any GPU |
 //! | [`run`] | the time loop |
 //! | [`checkpoint`] | the state of a run in a file |
@@ -15,6 +16,8 @@
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | packings, suspensions and settled beds of grains to start from |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
+//! | [`ball`] | what cells share with a ball |
+//! | [`lanes`] | vectors of numbers |
 //! | [`table`] | rows of named columns, as CSV files hold them |
 //! | [`units`] | SI units and lattice units |
 //! | [`input`] | reading of files that the user names |
@@ -26,14 +29,17 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)] // they panic where nobody reads: see command/say.rs
 
 pub mod advice;
+pub mod ball;
 pub mod checkpoint;
 pub mod command;
 pub mod conformance;
 pub mod courses;
+pub mod cpu;
 pub mod engine;
 pub mod exact;
 pub mod input;
 pub mod kernel;
+pub mod lanes;
 pub mod machine;
 pub mod output;
 pub mod packing;

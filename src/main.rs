@@ -175,8 +175,8 @@ fn engine_words() -> impl Iterator<Item = &'static str> {
 /// What computes; the same as `--set engine.kind=...` and `--set engine.adapter=...`.
 #[derive(clap::Args)]
 struct EngineArguments {
-    /// What computes: `reference` in double precision on the CPU, `wgpu` in single precision on an
-    /// adapter, `auto` wgpu where there is a GPU in hardware [default: the scene's, else reference]
+    /// What computes: `reference`, the oracle; `cpu` and `cpu_single`, fast on the CPU; `wgpu` in single precision on an
+    /// adapter; `auto` wgpu where there is a GPU in hardware, else cpu [default: the scene's, else reference]
     #[arg(long, value_parser = PossibleValuesParser::new(engine_words()))]
     engine: Option<String>,
     /// A part of the adapter's name, see `psmrt info`; alone it stands for `--engine wgpu` too

@@ -27,7 +27,7 @@ use crate::engine::{Coupled, DeviceError, EngineName, StartError, open};
 use crate::kernel::{KernelError, adapters};
 use crate::output::folder::FolderError;
 use crate::run::RunError;
-use crate::scene::{EngineKind, Scene, SceneError};
+use crate::scene::{EngineKind, Precision, Scene, SceneError};
 use crate::table::TableError;
 use say::tell;
 
@@ -179,18 +179,23 @@ fn kind_of(engine: &Coupled) -> EngineKind {
 }
 
 /// The engine that is to compute a scene. `auto` takes a software adapter for none: that shares the
-/// processor with the oracle and has half its digits, which a user should ask for by name.
+/// processor with the CPU engine, which is several times as fast, which a user should ask for by name.
 fn engine_of(scene: &Scene) -> EngineName {
-    if let Some(named) = EngineName::of(scene.engine) {
+    if let Some(named) = EngineName::of(scene) {
         return named;
+    }
+    let cpu = EngineName::cpu(scene.precision);
+    if scene.precision == Some(Precision::Double) {
+        tell("engine auto: double precision is asked for, so the CPU engine (cpu) computes");
+        return cpu;
     }
     let found = adapters();
     let is_there = scene.adapter.is_some() || found.iter().any(|a| !a.is_software());
     if !is_there {
         let why = if found.is_empty() { "no adapter" } else { "only a software adapter" };
-        tell(&format!("engine auto: {why}, so the oracle (reference) computes"));
+        tell(&format!("engine auto: {why}, so the CPU engine ({}) computes", cpu.word()));
     }
-    if is_there && !found.is_empty() { EngineName::Wgpu } else { EngineName::Reference }
+    if is_there && !found.is_empty() { EngineName::Wgpu } else { cpu }
 }
 
 /// The changes of a scene that `--engine` and `--adapter` stand for: they become part of the scene that
@@ -209,9 +214,12 @@ pub fn engine_changes(
         )));
     }
     let engine = engine.or(adapter.map(|_| "wgpu"));
-    let kind = engine.map(|engine| format!("engine.kind=\"{engine}\""));
+    let kind = named.map(|engine| engine.kind().word()).or(engine);
+    let kind = kind.map(|kind| format!("engine.kind=\"{kind}\""));
+    let single = named == Some(EngineName::CpuSingle);
+    let precision = single.then(|| "engine.precision=\"single\"".to_owned());
     let adapter = adapter.map(|name| format!("engine.adapter={}", toml_edit::Value::from(name)));
-    Ok(kind.into_iter().chain(adapter).collect())
+    Ok(kind.into_iter().chain(precision).chain(adapter).collect())
 }
 
 /// Does the writing of one file. Errors with the name of the file when that fails.

@@ -143,7 +143,7 @@ fn now(
     let none = |why: &str| Outside { why: why.to_owned(), nearest: None, may_be_worse: true };
     let collision = Preset::of(&scene.setup.collision)
         .ok_or_else(|| none("no run of the evidence has its relaxation rates"))?;
-    let engine = EngineName::of(scene.engine).unwrap_or(EngineName::Reference).word();
+    let engine = EngineName::of(scene).unwrap_or(EngineName::Reference).word();
     let speed = speeds.iter().find(|speed| speed.engine == engine);
     as_it_is(facts, models, collision, speed.ok_or_else(|| none("its engine is not there"))?)
 }

@@ -5,12 +5,13 @@
 //! | `fluid.rs` | [`FluidEngine`]: what is asked of whatever computes the fluid |
 //! | `coupled.rs`, `state.rs` | [`Coupled`]: a fluid engine with what is the same above every one: free grains, prescribed motion, guard, profile, saved state |
 //! | `name.rs`, `open.rs` | [`EngineName`]; [`open`]: the engine of a scene by its name; the list of engines |
-//! | `reference.rs`, `wgpu.rs` | the oracle and the kernel as fluid engines |
+//! | `reference.rs`, `cpu.rs`, `wgpu.rs` | the oracle, the CPU engine and the kernel as fluid engines |
 //! | `free_state.rs`, `bytes.rs` | free grains, and numbers, as bytes |
 
 mod block;
 mod bytes;
 mod coupled;
+mod cpu;
 mod fluid;
 pub mod free_state;
 mod name;
@@ -30,6 +31,7 @@ use thiserror::Error;
 
 pub use block::Block;
 pub use coupled::{Coupled, Profile};
+pub use cpu::CpuEngine;
 pub use fluid::{BoxMeans, CellState, FluidEngine};
 pub use name::EngineName;
 pub use open::{Start, from_populations, open, starting_from};

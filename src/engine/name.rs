@@ -1,23 +1,32 @@
 //! The engines by name.
 
-use crate::scene::EngineKind;
+use crate::scene::{EngineKind, Precision, Scene};
 
 /// What computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EngineName {
     /// The oracle.
     Reference,
+    /// The CPU engine in double precision.
+    Cpu,
+    /// The CPU engine in single precision.
+    CpuSingle,
     /// The kernel.
     Wgpu,
 }
 
 impl EngineName {
     /// All of them, the oracle first. What each is made of stands in `open.rs`.
-    pub const ALL: [EngineName; 2] = [EngineName::Reference, EngineName::Wgpu];
+    pub const ALL: [EngineName; 4] =
+        [EngineName::Reference, EngineName::Cpu, EngineName::CpuSingle, EngineName::Wgpu];
 
-    /// As scenes, tables and `--engine` spell it.
+    /// As tables and `--engine` spell it, and scenes too but for `cpu_single`: that is their engine `cpu` with
+    /// `precision = "single"`.
     pub fn word(self) -> &'static str {
-        self.kind().word()
+        match self {
+            EngineName::CpuSingle => "cpu_single",
+            name => name.kind().word(),
+        }
     }
 
     /// The engine that is spelt so.
@@ -26,14 +35,28 @@ impl EngineName {
     }
 
     /// The engine that a scene names; `None` for `auto`.
-    pub fn of(kind: EngineKind) -> Option<Self> {
-        Self::ALL.into_iter().find(|name| name.kind() == kind)
+    pub fn of(scene: &Scene) -> Option<Self> {
+        match scene.engine {
+            EngineKind::Reference => Some(EngineName::Reference),
+            EngineKind::Cpu => Some(Self::cpu(scene.precision)),
+            EngineKind::Wgpu => Some(EngineName::Wgpu),
+            EngineKind::Auto => None,
+        }
+    }
+
+    /// The CPU engine in a precision: double where none is asked for.
+    pub fn cpu(precision: Option<Precision>) -> Self {
+        match precision {
+            Some(Precision::Single) => EngineName::CpuSingle,
+            Some(Precision::Double) | None => EngineName::Cpu,
+        }
     }
 
     /// The kind that a scene names it by.
     pub fn kind(self) -> EngineKind {
         match self {
             EngineName::Reference => EngineKind::Reference,
+            EngineName::Cpu | EngineName::CpuSingle => EngineKind::Cpu,
             EngineName::Wgpu => EngineKind::Wgpu,
         }
     }
@@ -41,7 +64,9 @@ impl EngineName {
     /// What it is, in a few words.
     pub fn about(self) -> &'static str {
         match self {
-            EngineName::Reference => "the oracle: double precision, CPU",
+            EngineName::Reference => "the oracle: double precision, CPU, written to be read",
+            EngineName::Cpu => "the CPU engine: double precision, all cores",
+            EngineName::CpuSingle => "the same with precision = \"single\"",
             EngineName::Wgpu => "the kernel: single precision, any adapter",
         }
     }
@@ -49,8 +74,16 @@ impl EngineName {
     /// Bytes of a number of its fields.
     pub fn bytes_of_number(self) -> u8 {
         match self {
-            EngineName::Reference => 8,
-            EngineName::Wgpu => 4,
+            EngineName::Reference | EngineName::Cpu => 8,
+            EngineName::CpuSingle | EngineName::Wgpu => 4,
+        }
+    }
+
+    /// How many copies of the populations it keeps.
+    pub fn copies(self) -> u8 {
+        match self {
+            EngineName::Reference | EngineName::Wgpu => 2,
+            EngineName::Cpu | EngineName::CpuSingle => 1,
         }
     }
 

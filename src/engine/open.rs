@@ -9,7 +9,9 @@ use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::Solid;
 
 use super::coupled::{Coupled, Grains};
-use super::{DeviceError, EngineName, FluidEngine, KernelEngine, ReferenceEngine, StartError};
+use super::{
+    CpuEngine, DeviceError, EngineName, FluidEngine, KernelEngine, ReferenceEngine, StartError,
+};
 use crate::kernel::Gpu;
 use crate::scene::{FreePart, Scene};
 
@@ -37,6 +39,8 @@ fn fluid(
 ) -> Result<Box<dyn FluidEngine>, StartError> {
     Ok(match name {
         EngineName::Reference => Box::new(ReferenceEngine::start(setup, start)?),
+        EngineName::Cpu => Box::new(CpuEngine::<f64>::start(setup, start)),
+        EngineName::CpuSingle => Box::new(CpuEngine::<f32>::start(setup, start)),
         EngineName::Wgpu => Box::new(KernelEngine::start(setup, &device(gpu, None)?, start)?),
     })
 }

@@ -11,7 +11,7 @@ use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
 use super::numbers::{count, single};
-use super::sphere::{cells_about, sampled_fraction, solid_fractions};
+use crate::ball::{cells_about, sampled_fraction, solid_fractions};
 
 /// One cell that a solid touches.
 #[derive(Clone, Copy, Debug)]

@@ -145,9 +145,12 @@ pub struct CheckpointSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EngineSection {
-    /// `reference`: double precision on the CPU; `wgpu`: single precision on a GPU; `auto`: `wgpu` where
-    /// there is a GPU, else `reference`.
+    /// `reference`: the oracle, double precision on the CPU; `cpu`: the fast engine on the CPU; `wgpu`: single
+    /// precision on a GPU; `auto`: `wgpu` where there is a GPU, else `cpu`.
     pub kind: EngineKind,
+    /// With `cpu`: `double`, the default, or `single`, which takes half the memory and half the time. With `auto`
+    /// `double` leaves a GPU aside.
+    pub precision: Option<Precision>,
     /// With `wgpu` and `auto`: a part of the adapter's name as `psmrt info` lists it; the fastest kind
     /// where absent.
     pub adapter: Option<String>,
@@ -160,10 +163,22 @@ pub enum EngineKind {
     /// The oracle.
     #[default]
     Reference,
+    /// The CPU engine.
+    Cpu,
     /// The kernel.
     Wgpu,
-    /// The kernel where there is a GPU in hardware, else the oracle.
+    /// The kernel where there is a GPU in hardware, else the CPU engine.
     Auto,
+}
+
+/// How many digits an engine keeps.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(rename_all = "snake_case")]
+pub enum Precision {
+    /// About 7; populations are kept less their lattice weights, so that nearly all of these tell of the flow.
+    Single,
+    /// About 16.
+    Double,
 }
 
 impl EngineKind {
@@ -171,6 +186,7 @@ impl EngineKind {
     pub fn word(self) -> &'static str {
         match self {
             EngineKind::Reference => "reference",
+            EngineKind::Cpu => "cpu",
             EngineKind::Wgpu => "wgpu",
             EngineKind::Auto => "auto",
         }

@@ -39,7 +39,7 @@ pub use check::free::FreePart;
 pub use check::grains::Attachment;
 pub use check::records::{OutputInterval, Record, What};
 pub use check::stop::{Steady, Stop};
-pub use format_run::EngineKind;
+pub use format_run::{EngineKind, Precision};
 pub use trouble::{SceneError, Trouble};
 
 use crate::exact::PlanePoiseuille;
@@ -79,6 +79,8 @@ pub struct Scene {
     pub exact: Option<PlanePoiseuille>,
     /// What is to compute it.
     pub engine: EngineKind,
+    /// The precision that is asked for, if one is.
+    pub precision: Option<Precision>,
     /// A part of the name of the adapter that is to be used, if one is named.
     pub adapter: Option<String>,
 }

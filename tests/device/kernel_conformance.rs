@@ -5,11 +5,12 @@
 use crate::common::Budget;
 use crate::conformance::{judged, kit};
 use crate::trials::{self, Claim};
+use psmrt::ball::solid_fraction;
 use psmrt::conformance::folder::{read, write};
 use psmrt::conformance::judge::{Submission, judge_submission};
 use psmrt::conformance::task::{Collisions, Scene, SceneOutcome, Spheres, Streaming, Task};
 use psmrt::conformance::{Answers, Array, Candidate, Precision};
-use psmrt::kernel::{Kernel, solid_fraction};
+use psmrt::kernel::Kernel;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::{Domain, Faces};

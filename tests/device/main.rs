@@ -34,7 +34,7 @@ use std::process::ExitCode;
 use psmrt::engine::EngineName;
 
 /// The engines that are held to the oracle and to exact solutions, by the same trials; one more is one more here.
-const HELD: [EngineName; 1] = [EngineName::Wgpu];
+const HELD: [EngineName; 3] = [EngineName::Cpu, EngineName::CpuSingle, EngineName::Wgpu];
 
 fn main() -> ExitCode {
     let arguments = trials::arguments();

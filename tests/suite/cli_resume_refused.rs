@@ -144,7 +144,7 @@ fn tables_of_a_run_without_a_checkpoint_are_set_aside_when_it_starts_again() {
 
 #[cfg(unix)]
 #[test]
-fn a_run_begun_by_auto_on_the_oracle_goes_on_there_once_an_adapter_has_appeared() {
+fn a_run_begun_by_auto_on_the_cpu_goes_on_there_once_an_adapter_has_appeared() {
     const STEPS: u64 = 600;
     Budget::oracle(614_400).spend(2 * STEPS * CELLS);
     let folder = Folder::new("auto");
@@ -164,7 +164,7 @@ fn a_run_begun_by_auto_on_the_oracle_goes_on_there_once_an_adapter_has_appeared(
     child.kill().unwrap();
     child.wait().unwrap();
     let kept = fs::read_to_string(out.join("scene.toml")).unwrap();
-    assert!(kept.contains("kind = \"reference\""), "{kept}");
+    assert!(kept.contains("kind = \"cpu\""), "{kept}");
     // With whatever adapters this machine has.
     let output = psmrt(&["resume", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));

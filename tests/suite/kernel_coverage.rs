@@ -3,7 +3,7 @@
 use crate::common::cuts::{assert_close, cut};
 use crate::common::random::Random;
 use crate::common::sphere_quadrature::fraction_by_quadrature;
-use psmrt::kernel::{cells_about, sampled_fraction, solid_fraction, solid_fractions};
+use psmrt::ball::{cells_about, sampled_fraction, solid_fraction, solid_fractions};
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 

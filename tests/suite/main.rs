@@ -31,6 +31,7 @@ mod cli_resume_refused;
 mod cli_run;
 mod conformance_files;
 mod conformance_oracle;
+mod cpu_engine;
 mod drive;
 mod exact_text;
 mod extremes;

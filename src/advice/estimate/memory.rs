@@ -31,10 +31,10 @@ pub struct Part {
 /// The arrays of a scene, at the most at any time of a run.
 pub fn parts(scene: &Scene) -> Vec<Part> {
     let cells = scene.setup.domain.cell_count() as u64;
-    let engine = EngineName::of(scene.engine).unwrap_or(EngineName::Reference);
+    let engine = EngineName::of(scene).unwrap_or(EngineName::Reference);
     let real = u64::from(engine.bytes_of_number());
-    // Before and after streaming.
-    let mut parts = vec![Part { what: "populations", bytes: 2 * 19 * real * cells }];
+    let copies = u64::from(engine.copies());
+    let mut parts = vec![Part { what: "populations", bytes: copies * 19 * real * cells }];
     if let Some(phase) = &scene.setup.solid_phase {
         let touched: f64 = phase.solids.iter().map(Solid::most_cells).sum();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]

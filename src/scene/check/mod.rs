@@ -34,8 +34,8 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SetupError};
 
 use super::format::SceneFile;
-use super::format_run::ExactName;
-use super::{Scene, Trouble};
+use super::format_run::{EngineSection, ExactName};
+use super::{EngineKind, Precision, Scene, Trouble};
 use crate::exact::PlanePoiseuille;
 use crate::units::Units;
 use free::FreePart;
@@ -100,8 +100,22 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         stop,
         exact,
         engine: file.engine.as_ref().map(|section| section.kind).unwrap_or_default(),
+        precision: precision(file.engine.as_ref())?,
         adapter: file.engine.as_ref().and_then(|section| section.adapter.clone()),
     })
+}
+
+/// The precision that is asked for, if the engine has it.
+fn precision(section: Option<&EngineSection>) -> Result<Option<Precision>, Trouble> {
+    let Some(EngineSection { kind, precision, .. }) = section else { return Ok(None) };
+    let (has, other) = match (kind, precision) {
+        (EngineKind::Reference, Some(Precision::Single)) => ("double", "cpu"),
+        (EngineKind::Wgpu, Some(Precision::Double)) => ("single", "cpu"),
+        _ => return Ok(*precision),
+    };
+    let problem = format!("engine {} computes in {has} precision only", kind.word());
+    let remedy = format!("leave it out, or take engine.kind = \"{other}\", which has both");
+    Err(Trouble::new("engine.precision", problem, remedy))
 }
 
 /// A velocity in lattice units, if it is slow enough.

@@ -4,6 +4,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`cases`] | the acceptance cases, a folder each, named as under `golden/` |
+//! | [`speed`] | how fast the engines are |
 //! | [`stability`] | maps of where the method survives and where it is right |
 //! | [`tradeoff`] | speed for accuracy, measured |
 //! | [`command`] | the commands of `cargo validate` |
@@ -15,6 +16,7 @@
 pub mod cases;
 pub mod command;
 pub mod failure;
+pub mod speed;
 pub mod stability;
 pub mod tradeoff;
 

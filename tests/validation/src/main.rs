@@ -11,6 +11,7 @@ use psmrt::quote;
 use psmrt_validation::command::coefficients::{self, CoefficientsRequest};
 use psmrt_validation::command::golden::{self, GoldenCommand};
 use psmrt_validation::command::report::{self, ReportRequest};
+use psmrt_validation::command::speed::{self, SpeedRequest};
 use psmrt_validation::command::stability::{self, StabilityRequest};
 use psmrt_validation::command::tradeoff::{self, TradeoffRequest};
 use psmrt_validation::failure::Failure;
@@ -69,6 +70,11 @@ Examples:
     /// Fits the error models and takes the limits anew that `psmrt check` and `psmrt plan` predict by
     #[command(after_help = "Example:\n  cargo validate coefficients && git diff src/advice")]
     Coefficients(CoefficientsRequest),
+    /// Measures cell updates per second of the engines, with the memory bandwidth beside them
+    #[command(after_help = "Examples:
+  cargo validate speed
+  cargo validate speed --side 64 --threads 1 --only bed --wgpu")]
+    Speed(SpeedRequest),
 }
 
 fn main() -> ExitCode {
@@ -79,6 +85,7 @@ fn main() -> ExitCode {
         Command::Stability(request) => stability::stability(&request),
         Command::Tradeoff(request) => tradeoff::tradeoff(&request, json),
         Command::Coefficients(request) => coefficients::make(&request, json),
+        Command::Speed(request) => speed::speed(&request),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,6 +7,7 @@ use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
 use crate::advice::plan::predict::{Outside, Parameters, Predicted, percent, predict};
 use crate::advice::tradeoff::model::Models;
+use crate::engine::EngineName;
 use crate::scene::{EngineKind, Scene};
 use psmrt_reference::collision::Preset;
 
@@ -32,11 +33,12 @@ pub(crate) fn outlook(scene: &Scene) -> Option<Outlook> {
     let models = Models::committed().ok()?;
     let collision = Preset::of(&scene.setup.collision)?;
     let kernel = scene.engine == EngineKind::Wgpu;
+    let single = EngineName::of(scene).is_some_and(|engine| engine.bytes_of_number() == 4);
     let parameters = Parameters {
         resolution: facts.limit.cells(),
         tau: facts.tau,
         collision,
-        single: kernel,
+        single,
         velocity: facts.si_velocity.map(|velocity| velocity / scene.units.si_velocity()),
     };
     let found = predict(&facts, models, &parameters);

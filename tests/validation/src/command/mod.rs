@@ -5,5 +5,6 @@ mod environment;
 pub mod golden;
 pub mod report;
 mod report_files;
+pub mod speed;
 pub mod stability;
 pub mod tradeoff;

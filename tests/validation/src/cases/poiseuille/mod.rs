@@ -145,8 +145,10 @@ fn row(
 /// as in the claim on the magic rates.
 fn quiet(engine: EngineName, cells: u32) -> f64 {
     match engine {
-        EngineName::Reference => 1e-12,
-        EngineName::Wgpu => 2e-6 * (f64::from(cells) / 32.0).powi(2).max(1.0),
+        EngineName::Reference | EngineName::Cpu => 1e-12,
+        EngineName::CpuSingle | EngineName::Wgpu => {
+            2e-6 * (f64::from(cells) / 32.0).powi(2).max(1.0)
+        }
     }
 }
 

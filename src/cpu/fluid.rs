@@ -1,0 +1,472 @@
+//! The fluid of a domain: the order of a step, and what may be asked of it.
+
+use std::io::{self, Read, Write};
+use std::sync::{Mutex, PoisonError};
+
+use psmrt_reference::directions::{C, Q};
+use psmrt_reference::drive::{Drive, DriveError};
+use psmrt_reference::guard::{Failure, Guard, Sight};
+use psmrt_reference::lattice::{Populations, Vec3};
+use psmrt_reference::setup::Setup;
+use psmrt_reference::solids::{Load, Solid};
+use pulp::Arch;
+use rayon::prelude::*;
+
+use super::collision::{EDGE, FACE, REST, Rules};
+use super::coverage::Coverage;
+use super::faces::Entering;
+use super::fields::{Fields, Received, Seen};
+use super::grid::Grid;
+
+use super::observe::{Sums, sum};
+use super::pass::Pass;
+use crate::lanes::Real;
+
+/// Cells that a thread takes at a time, in whole rows: with what solids cover of them they stay in its own cache.
+const RUN_CELLS: usize = 8192;
+
+/// The fluid of a domain on the CPU.
+#[derive(Debug)]
+pub struct Fluid<T: Real> {
+    setup: Setup,
+    rules: Rules,
+    arch: Arch,
+    grid: Grid<T>,
+    entering: Entering<T>,
+    /// Cells in a run.
+    run: usize,
+    coverage: Option<Coverage<T>>,
+    /// What solids that stay where they are cover of each run.
+    kept: Vec<Option<Fields<T>>>,
+    scratch: Mutex<Vec<Scratch<T>>>,
+    loads: Vec<Load>,
+    /// `Σ B_s` of the last step, if the loads were worked out in it and no solid has moved since.
+    displaced: Option<Vec<f64>>,
+}
+
+/// Fields of one run, for use again and again.
+#[derive(Debug)]
+struct Scratch<T> {
+    fields: Fields<T>,
+    seen: Seen<T>,
+}
+
+impl<T: Real> Fluid<T> {
+    /// A fluid whose density and velocity at each cell centre are `state(centre)`, in a set-up that has passed its
+    /// checks; `is_free`: its solids are free to move, so that the cells that they cover start with them even if all
+    /// are at rest.
+    pub fn starting_from(setup: Setup, state: &dyn Fn(Vec3) -> (f64, Vec3), is_free: bool) -> Self {
+        let mut fluid = Self::empty(setup);
+        let has_velocity = fluid.solids().iter().any(Solid::has_velocity);
+        fluid.fill(state, is_free || has_velocity);
+        fluid.entering = Entering::new(&fluid.setup.domain, &fluid.grid);
+        fluid
+    }
+
+    /// A fluid with the given populations, one set per cell, in a set-up that has passed its checks.
+    ///
+    /// # Panics
+    /// If there are not as many sets as cells: a mistake in the calling code.
+    pub fn from_populations(setup: Setup, f: &[Populations]) -> Self {
+        assert_eq!(f.len(), setup.domain.cell_count(), "one set of populations per cell");
+        let mut fluid = Self::empty(setup);
+        for a in 0..Q {
+            for (value, f) in fluid.grid.before_mut(a).iter_mut().zip(f) {
+                *value = T::from_f64(f[a] - weight(a));
+            }
+        }
+        fluid.entering = Entering::new(&fluid.setup.domain, &fluid.grid);
+        fluid
+    }
+
+    /// Computes cell by cell from now on, whatever the processor can do: for a test that the results are the same.
+    pub fn do_without_vectors(&mut self) {
+        self.arch = Arch::Scalar;
+    }
+
+    fn empty(setup: Setup) -> Self {
+        let (domain, phase) = (&setup.domain, setup.solid_phase.as_ref());
+        let rules = rules_of(&setup);
+        let grid = Grid::new(domain.cells());
+        let nx = domain.cells()[0];
+        let run = nx * (RUN_CELLS / nx).max(1);
+        let coverage = phase.filter(|phase| !phase.solids.is_empty());
+        let coverage =
+            coverage.map(|phase| Coverage::new(domain, &phase.solids, phase.coverage, run));
+        Fluid {
+            rules,
+            arch: Arch::new(),
+            entering: Entering::new(domain, &grid),
+            grid,
+            run,
+            kept: vec![None; domain.cell_count().div_ceil(run)],
+            coverage,
+            scratch: Mutex::default(),
+            loads: vec![Load::default(); phase.map_or(0, |phase| phase.solids.len())],
+            displaced: None,
+            setup,
+        }
+    }
+
+    /// Puts each cell into equilibrium with `state` and, if `covered_move`, where solids cover it with their
+    /// velocity: by volume, the mean velocity of what fills it.
+    fn fill(&mut self, state: &dyn Fn(Vec3) -> (f64, Vec3), covered_move: bool) {
+        let domain = self.setup.domain.clone();
+        let g = self.setup.body_force.unwrap_or_else(Vec3::zeros);
+        let solids = self.solids().to_vec();
+        let cells = domain.cell_count();
+        for run in 0..cells.div_ceil(self.run) {
+            let first = run * self.run;
+            let mut fields = Fields::new(self.run);
+            if let Some(coverage) = self.coverage.as_ref().filter(|_| covered_move) {
+                fields.add(coverage, &solids, run, first);
+            }
+            let motion = fields.motion();
+            for cell in first..cells.min(first + self.run) {
+                let (rho, u) = state(domain.centre(domain.coordinates(cell)));
+                // With a body force the momentum before a collision is half a step behind.
+                let mut u = u - g * (0.5 / rho);
+                let sum = fields.epsilon[cell - first].to_f64();
+                if sum > 0.0 {
+                    let moved = motion.map_or_else(Vec3::zeros, |motion| {
+                        Vec3::from(motion.map(|m| m[cell - first].to_f64())) / sum
+                    });
+                    let total = sum.min(1.0);
+                    // (1 - ε_t) u + ε_t Σ_s (ε_s/Σ ε_s) u_s
+                    u = (1.0 - total) * u + total * moved;
+                }
+                for a in 0..Q {
+                    let c = Vec3::from(C[a].map(f64::from));
+                    let cu = c.dot(&u);
+                    let change = rho * (3.0 * cu + 4.5 * cu * cu - 1.5 * u.dot(&u));
+                    let value = weight(a) * ((rho - 1.0) + change);
+                    self.grid.before_mut(a)[cell] = T::from_f64(value);
+                }
+            }
+        }
+    }
+
+    /// The set-up, with the solids where they are now and the drive of now.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    fn solids(&self) -> &[Solid] {
+        self.setup.solid_phase.as_ref().map_or(&[], |phase| &phase.solids)
+    }
+
+    /// One step.
+    fn step(&mut self, with_loads: bool) {
+        let Fluid { setup, rules, arch, grid, entering, run: cells, kept, scratch, .. } = self;
+        let (domain, coverage) = (&setup.domain, self.coverage.as_ref());
+        let solids = setup.solid_phase.as_ref().map_or(&[][..], |phase| &phase.solids);
+        let rows = *cells / domain.cells()[0];
+        let (now, next) = entering.split(rows);
+        let collide = |run: usize, values: &mut [&mut [T]; Q], kept: &mut Option<Fields<T>>| {
+            let covered = coverage.filter(|coverage| !coverage.parts(run).is_empty());
+            let Some(coverage) = covered else {
+                *kept = None;
+                arch.dispatch(Pass { rules, run: values, solids: None });
+                return Vec::new();
+            };
+            let first = run * *cells;
+            let mut spare = taken(scratch, *cells);
+            let moves = coverage.has_changed[run];
+            if moves {
+                *kept = None;
+                spare.fields.add(coverage, solids, run, first);
+            } else if kept.is_none() {
+                let mut fields = Fields::new(*cells);
+                fields.add(coverage, solids, run, first);
+                *kept = Some(fields);
+            }
+            let fields = kept.as_ref().unwrap_or(&spare.fields);
+            let seen = with_loads.then_some(&mut spare.seen);
+            arch.dispatch(Pass { rules, run: values, solids: Some((fields, seen)) });
+            fields.correct_meetings(rules, values);
+            let received = if with_loads {
+                Fields::receive((coverage, solids), (run, first), &spare.seen)
+            } else {
+                Vec::new()
+            };
+            if moves {
+                spare.fields.clear(coverage, run, first);
+            }
+            given_back(scratch, spare);
+            received
+        };
+        type OfRun<'a, T> = (([&'a mut [T]; Q], Vec<&'a mut [T]>), &'a mut Option<Fields<T>>);
+        let pass = |(run, ((mut values, mut next), kept)): (usize, OfRun<'_, T>)| {
+            now.put(run * rows, &mut values);
+            let received = collide(run, &mut values, kept);
+            now.take(domain, run * rows, &values, &mut next);
+            received
+        };
+        let runs = grid.runs(*cells);
+        let received: Vec<Vec<Received>> = if runs.len() < 2 {
+            runs.into_iter().zip(next).zip(kept.iter_mut()).enumerate().map(pass).collect()
+        } else {
+            runs.into_par_iter().zip(next).zip(kept.par_iter_mut()).enumerate().map(pass).collect()
+        };
+        grid.passed();
+        entering.fill(domain, grid);
+        if let Some(coverage) = &mut self.coverage {
+            coverage.has_changed.fill(false);
+        }
+        if with_loads {
+            let (loads, displaced) = added_up(&received, solids.len());
+            self.loads = loads;
+            self.displaced = Some(displaced);
+        }
+    }
+
+    /// Calls `look(first cell, density less 1 and momentum of its cells)` for each run, where the cells are
+    /// before their next collision, and gives what it returns in the order of the runs.
+    fn look_at_runs<R: Send>(&self, look: impl Fn(usize, &Seen<T>) -> R + Sync) -> Vec<R> {
+        let domain = &self.setup.domain;
+        let cells = domain.cell_count();
+        let rows = self.run / domain.cells()[0];
+        let at_run = |run: usize| {
+            let first = run * self.run;
+            let mut copies = self.copies(run);
+            let mut values = slices(&mut copies);
+            self.entering.now().put(run * rows, &mut values);
+            let mut spare = taken(&self.scratch, self.run);
+            self.arch.dispatch(Sums { run: &values, seen: &mut spare.seen });
+            let result = look(first, &spare.seen);
+            given_back(&self.scratch, spare);
+            result
+        };
+        (0..cells.div_ceil(self.run)).into_par_iter().map(at_run).collect()
+    }
+
+    /// The populations of a run, where `before` looks for them.
+    fn copies(&self, run: usize) -> Vec<Vec<T>> {
+        let first = run * self.run;
+        let cells = first..self.setup.domain.cell_count().min(first + self.run);
+        (0..Q).map(|a| self.grid.before(a)[cells.clone()].to_vec()).collect()
+    }
+
+    /// What the solids would receive in the next step.
+    fn next_received(&self) -> (Vec<Load>, Vec<f64>) {
+        let Some(coverage) = &self.coverage else { return (Vec::new(), Vec::new()) };
+        let run = |run: usize| {
+            if coverage.parts(run).is_empty() {
+                return Vec::new();
+            }
+            let rows = self.run / self.setup.domain.cells()[0];
+            let (mut copies, first) = (self.copies(run), run * self.run);
+            let mut values = slices(&mut copies);
+            self.entering.now().put(run * rows, &mut values);
+            let mut spare = taken(&self.scratch, self.run);
+            spare.fields.add(coverage, self.solids(), run, first);
+            let solids = Some((&spare.fields, Some(&mut spare.seen)));
+            self.arch.dispatch(Pass { rules: &self.rules, run: &mut values, solids });
+            let received = Fields::receive((coverage, self.solids()), (run, first), &spare.seen);
+            spare.fields.clear(coverage, run, first);
+            given_back(&self.scratch, spare);
+            received
+        };
+        let received: Vec<Vec<Received>> = (0..self.kept.len()).into_par_iter().map(run).collect();
+        added_up(&received, self.loads.len())
+    }
+
+    /// The populations of one cell before its next collision.
+    pub fn populations(&self, cell: usize) -> [f64; Q] {
+        let value = |a: usize| {
+            let entering = self.entering.now().value(a, self.setup.domain.coordinates(cell));
+            entering.unwrap_or_else(|| self.grid.before(a)[cell]).to_f64()
+        };
+        std::array::from_fn(|a| value(a) + weight(a))
+    }
+
+    /// The body force; zero where there is none.
+    pub fn body_force(&self) -> Vec3 {
+        self.setup.body_force.unwrap_or_else(Vec3::zeros)
+    }
+
+    /// Lets `drive` drive the fluid from now on. Errors, and changes nothing, as [`Setup::set_drive`].
+    pub fn set_drive(&mut self, drive: &Drive) -> Result<(), DriveError> {
+        self.setup.set_drive(drive)?;
+        self.rules = rules_of(&self.setup);
+        Ok(())
+    }
+
+    /// Puts the solids elsewhere. They are as many as before, and of the same shapes.
+    pub fn place_solids(&mut self, solids: Vec<Solid>) {
+        if let (Some(phase), Some(coverage)) = (&mut self.setup.solid_phase, &mut self.coverage) {
+            coverage.update(&self.setup.domain, &phase.solids, &solids, phase.coverage);
+            phase.solids = solids;
+            self.displaced = None;
+        }
+    }
+
+    /// Makes `steps` steps, the solids staying where they are; loads are worked out at the last, if `with_loads`.
+    pub fn advance(&mut self, steps: u64, with_loads: bool) {
+        (0..steps).for_each(|step| self.step(with_loads && step + 1 == steps));
+    }
+
+    /// Force and torque on each solid during the last step in which they were worked out.
+    pub fn loads(&self) -> &[Load] {
+        &self.loads
+    }
+
+    /// `Σ B_s` over the cells of each solid, in cells: those of the last step until a solid is placed elsewhere.
+    pub fn displaced(&self) -> Vec<f64> {
+        self.displaced.clone().unwrap_or_else(|| self.next_received().1)
+    }
+
+    /// Mean density, mean mass flux (the mean of the momentum before and after the next collision, solid cells included)
+    /// and the largest speed in any cell.
+    pub fn means(&self) -> (f64, Vec3, f64) {
+        let g = self.body_force();
+        let parts = self.look_at_runs(|first, seen| {
+            let count = self.run.min(self.setup.domain.cell_count() - first);
+            let [excess, jx, jy, jz, _] = seen.of.each_ref().map(|of| sum(&of[..count]));
+            let speed = |cell: usize| {
+                let [excess, jx, jy, jz, _] = seen.of.each_ref().map(|of| of[cell].to_f64());
+                ((Vec3::new(jx, jy, jz) + 0.5 * g) / (1.0 + excess)).norm_squared()
+            };
+            (excess, Vec3::new(jx, jy, jz), (0..count).map(speed).fold(0.0, f64::max))
+        });
+        let n = self.setup.domain.cell_count() as f64;
+        let excess: f64 = parts.iter().map(|part| part.0).sum();
+        let momentum: Vec3 = parts.iter().map(|part| part.1).sum();
+        let (loads, displaced) = self.next_received();
+        let received: Vec3 = loads.iter().map(|load| load.force).sum();
+        let displaced: f64 = displaced.iter().sum();
+        // The next collision changes Σ j by Σ (1 - B) G - Σ_s F_s.
+        let change = (n - displaced) * g - received;
+        let density = 1.0 + excess / n;
+        let speed = parts.iter().map(|part| part.2).fold(0.0, f64::max).sqrt();
+        (density, (momentum + 0.5 * change) / n, speed)
+    }
+
+    /// What `guard` wants to know of all cells.
+    pub fn sight(&self, guard: &Guard) -> Sight {
+        // Cells that come near the limit are looked at again by the guard, in all digits.
+        let limit = self.setup.guard.max_speed * 0.999;
+        let parts = self.look_at_runs(|first, seen| {
+            let count = self.run.min(self.setup.domain.cell_count() - first);
+            let (mut fastest, mut broken) = (0.0_f64, None);
+            for cell in 0..count {
+                let [excess, jx, jy, jz, _] = seen.of.each_ref().map(|of| of[cell].to_f64());
+                let rho = 1.0 + excess;
+                let square = (jx * jx + jy * jy + jz * jz) / (rho * rho);
+                fastest = fastest.max(square);
+                if !(rho > 0.0 && square <= limit * limit) {
+                    let failure: Option<Failure> = guard.failure(&self.populations(first + cell));
+                    if let Some(failure) = failure {
+                        broken = Some((first + cell, failure));
+                        break;
+                    }
+                }
+            }
+            (sum(&seen.of[0][..count]), fastest, broken)
+        });
+        let n = self.setup.domain.cell_count() as f64;
+        Sight {
+            mean_density: 1.0 + parts.iter().map(|part| part.0).sum::<f64>() / n,
+            max_speed: parts.iter().map(|part| part.1).fold(0.0, f64::max).sqrt(),
+            broken: parts.into_iter().find_map(|part| part.2),
+        }
+    }
+
+    /// Total solid fraction of cells.
+    pub fn solid_fractions(&self, cells: &[usize]) -> Vec<f64> {
+        let Some(coverage) = &self.coverage else { return vec![0.0; cells.len()] };
+        let mut found = vec![0.0; cells.len()];
+        let mut fields = Fields::new(self.run);
+        let mut present = None;
+        for (fraction, &cell) in found.iter_mut().zip(cells) {
+            let run = cell / self.run;
+            let first = run * self.run;
+            if present != Some(run) {
+                if let Some(present) = present {
+                    fields.clear(coverage, present, present * self.run);
+                }
+                fields.add(coverage, self.solids(), run, first);
+                present = Some(run);
+            }
+            *fraction = fields.epsilon[cell - first].to_f64().min(1.0);
+        }
+        found
+    }
+
+    /// Writes what it needs to go on, bit for bit, besides its set-up, its solids, their loads and its drive.
+    pub fn save(&self, out: &mut dyn Write) -> io::Result<()> {
+        let cells = self.setup.domain.cell_count();
+        let rows = self.run / self.setup.domain.cells()[0];
+        for run in 0..cells.div_ceil(self.run) {
+            let mut copies = self.copies(run);
+            let mut copies = slices(&mut copies);
+            self.entering.now().put(run * rows, &mut copies);
+            copies.iter().try_for_each(|values| out.write_all(bytemuck::cast_slice(values)))?;
+        }
+        self.entering.slow_means().try_for_each(|mean| out.write_all(&mean.to_le_bytes()))
+    }
+
+    /// Takes what [`Self::save`] wrote for the same scene, with the solids and the loads of then.
+    pub fn load(
+        &mut self,
+        from: &mut dyn Read,
+        solids: Vec<Solid>,
+        loads: Vec<Load>,
+    ) -> io::Result<()> {
+        for values in self.grid.runs(self.run).iter_mut().flatten() {
+            from.read_exact(bytemuck::cast_slice_mut(values))?;
+        }
+        self.entering.forget();
+        for mean in self.entering.slow_means_mut() {
+            let mut bytes = [0; 8];
+            from.read_exact(&mut bytes)?;
+            *mean = f64::from_le_bytes(bytes);
+        }
+        self.place_solids(solids);
+        self.loads = loads;
+        Ok(())
+    }
+}
+
+fn rules_of(setup: &Setup) -> Rules {
+    let phase = setup.solid_phase.as_ref();
+    let (operator, weighting) =
+        phase.map(|phase| (phase.operator, phase.weighting)).unwrap_or_default();
+    Rules::new(&setup.collision, setup.body_force, operator, weighting)
+}
+
+/// Lattice weight of direction `a`.
+fn weight(a: usize) -> f64 {
+    match a {
+        0 => REST,
+        1..=6 => FACE,
+        _ => EDGE,
+    }
+}
+
+/// The arrays of all directions.
+fn slices<T>(arrays: &mut [Vec<T>]) -> [&mut [T]; Q] {
+    let mut arrays = arrays.iter_mut();
+    std::array::from_fn(|_| arrays.next().map(Vec::as_mut_slice).unwrap_or_default())
+}
+
+/// Fields of a run, from the stock or new.
+fn taken<T: Real>(stock: &Mutex<Vec<Scratch<T>>>, cells: usize) -> Scratch<T> {
+    let from_stock = stock.lock().unwrap_or_else(PoisonError::into_inner).pop();
+    from_stock.unwrap_or_else(|| Scratch { fields: Fields::new(cells), seen: Seen::new(cells) })
+}
+
+fn given_back<T: Real>(stock: &Mutex<Vec<Scratch<T>>>, scratch: Scratch<T>) {
+    stock.lock().unwrap_or_else(PoisonError::into_inner).push(scratch);
+}
+
+/// Loads and `Σ B_s` of each solid, added up in the order of the runs.
+fn added_up(received: &[Vec<Received>], solids: usize) -> (Vec<Load>, Vec<f64>) {
+    let (mut loads, mut all) = (vec![Load::default(); solids], vec![0.0; solids]);
+    for Received { solid, load, displaced } in received.iter().flatten() {
+        loads[*solid].force += load.force;
+        loads[*solid].torque += load.torque;
+        all[*solid] += displaced;
+    }
+    (loads, all)
+}
