@@ -15,9 +15,18 @@ use psmrt_reference::rates::Rates;
 use crate::lanes::Lanes;
 
 /// Lattice weights of the rest direction, of the six to faces of the cube and of the twelve to its edges.
-pub(super) const REST: f64 = 1.0 / 3.0;
-pub(super) const FACE: f64 = 1.0 / 18.0;
-pub(super) const EDGE: f64 = 1.0 / 36.0;
+const REST: f64 = 1.0 / 3.0;
+const FACE: f64 = 1.0 / 18.0;
+const EDGE: f64 = 1.0 / 36.0;
+
+/// Lattice weight of direction `a`.
+pub(super) fn weight(a: usize) -> f64 {
+    match a {
+        0 => REST,
+        1..=6 => FACE,
+        _ => EDGE,
+    }
+}
 
 /// One value for each pair of opposite directions, named by the first: `xy` is (1, 1, 0), `x_y` (1, -1, 0).
 #[derive(Clone, Copy)]

@@ -16,7 +16,7 @@ use psmrt_reference::domain::{Domain, Face};
 use psmrt_reference::lattice::Vec3;
 use rayon::prelude::*;
 
-use super::collision::{EDGE, FACE, REST};
+use super::collision::weight;
 use super::grid::Grid;
 use crate::lanes::Real;
 
@@ -625,15 +625,6 @@ fn cells_at(domain: &Domain, (axis, side): Side) -> impl Iterator<Item = usize> 
         let [x, y, z] = [[outermost, i, j], [i, outermost, j], [i, j, outermost]][axis];
         x + nx * (y + ny * z)
     })
-}
-
-/// Lattice weight of direction `a`.
-fn weight(a: usize) -> f64 {
-    match a {
-        0 => REST,
-        1..=6 => FACE,
-        _ => EDGE,
-    }
 }
 
 /// `c_a·v`

@@ -5,7 +5,7 @@ use psmrt_reference::directions::{C, OPPOSITE, Q};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Load, Solid};
 
-use super::collision::{EDGE, FACE, REST, Rules};
+use super::collision::{Rules, weight};
 use super::coverage::{Coverage, Part};
 use crate::lanes::Real;
 
@@ -157,11 +157,11 @@ impl<T: Real> Fields<T> {
         for Meeting { cell, squares } in &self.meetings {
             let sum = self.epsilon[*cell].to_f64();
             let mean = self.motion.each_ref().map(|motion| motion[*cell].to_f64() / sum);
-            let weight = rules.weight_of(sum.min(1.0));
+            let b_t = rules.weight_of(sum.min(1.0));
             // Σ_s B_s (u_s - ū)(u_s - ū)ᵀ
             let spread: [f64; 6] = std::array::from_fn(|k| {
                 let [i, j] = AXES[k];
-                weight * (squares[k] / sum - mean[i] * mean[j])
+                b_t * (squares[k] / sum - mean[i] * mean[j])
             });
             let [xx, yy, zz, ..] = spread;
             // No collision changes the density. Where that of f_a was, there is now f*_-a.
@@ -177,13 +177,8 @@ impl<T: Real> Fields<T> {
                         },
                     )
                     .sum();
-                let w = match a {
-                    0 => REST,
-                    1..=6 => FACE,
-                    _ => EDGE,
-                };
                 // w ρ Σ_s B_s [9/2 (c·(u_s - ū))² - 3/2 (u_s - ū)²]
-                let gain = w * rho * (4.5 * along - 1.5 * (xx + yy + zz));
+                let gain = weight(a) * rho * (4.5 * along - 1.5 * (xx + yy + zz));
                 let value = &mut run[OPPOSITE[a]][*cell];
                 *value = T::from_f64(value.to_f64() + gain);
             }

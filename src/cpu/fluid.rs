@@ -12,12 +12,11 @@ use psmrt_reference::solids::{Load, Solid};
 use pulp::Arch;
 use rayon::prelude::*;
 
-use super::collision::{EDGE, FACE, REST, Rules};
+use super::collision::{Rules, weight};
 use super::coverage::Coverage;
 use super::faces::Entering;
 use super::fields::{Fields, Received, Seen};
 use super::grid::Grid;
-
 use super::observe::{Sums, sum};
 use super::pass::Pass;
 use crate::lanes::Real;
@@ -433,15 +432,6 @@ fn rules_of(setup: &Setup) -> Rules {
     let (operator, weighting) =
         phase.map(|phase| (phase.operator, phase.weighting)).unwrap_or_default();
     Rules::new(&setup.collision, setup.body_force, operator, weighting)
-}
-
-/// Lattice weight of direction `a`.
-fn weight(a: usize) -> f64 {
-    match a {
-        0 => REST,
-        1..=6 => FACE,
-        _ => EDGE,
-    }
 }
 
 /// The arrays of all directions.
