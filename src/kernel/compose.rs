@@ -9,7 +9,7 @@ use psmrt_reference::partial_saturation::SolidOperator;
 use psmrt_reference::setup::Setup;
 
 use super::bindings::Binding;
-use super::driven::has_face_values;
+use super::driven::has_densities;
 use super::layout::{Layout, Store};
 use super::numbers::{count, literal};
 use super::outgoing;
@@ -39,6 +39,8 @@ pub(super) struct Recipe<'a> {
     pub(super) setup: &'a Setup,
     pub(super) layout: Layout,
     pub(super) solids: SolidData,
+    /// Whether walls or inlets have velocities.
+    pub(super) walls_move: bool,
 }
 
 /// The work that a shader does.
@@ -104,7 +106,7 @@ impl Recipe<'_> {
         // Those of all cells take every face for periodic, and the first step does not stream.
         let has_faces =
             !matches!(work, Work::Step { .. } | Work::StepListed { is_first: true, .. });
-        has_force || (has_faces && has_face_values(self.setup))
+        has_force || (has_faces && (self.walls_move || has_densities(self.setup)))
     }
 
     /// The shader for `work`.
@@ -138,7 +140,7 @@ impl Recipe<'_> {
             add(include_str!("wgsl/coordinates.wgsl"));
             add(include_str!("wgsl/task.wgsl"));
             let writes = matches!(work, Work::StepListed { is_first: false, .. });
-            add(&faces(&self.setup.domain, &self.layout, writes));
+            add(&faces(&self.setup.domain, &self.layout, self.walls_move, writes));
         }
         add(match work {
             Work::Step { .. } => include_str!("wgsl/step.wgsl"),

@@ -3,7 +3,12 @@
 //! The populations are kept as they are after a collision, so that a step streams first: with the face values of the
 //! step before it, whose streaming that is, and then collides with its own body force. A step after a change is
 //! therefore made by itself, before those that have the new face values too.
+//!
+//! Shaders of a scene whose walls are at rest have no face velocities in them; when one first moves, they are made anew.
+//! (A condition on a uniform would do as well on hardware; Mesa's lavapipe takes it for a reason to translate the shader anew
+//! at each dispatch.)
 
+use std::cell::OnceCell;
 use std::io;
 
 use psmrt_reference::drive::{Drive, DriveError, FaceValue};
@@ -25,12 +30,16 @@ pub(super) struct Driven {
     pub(super) buffer: wgpu::Buffer,
     /// The face values of the step that was made last.
     entered: FaceRows,
+    /// Whether any wall or inlet has had a velocity.
+    pub(super) walls_move: bool,
 }
 
 impl Driven {
     pub(super) fn new(gpu: &Gpu, setup: &Setup) -> Result<Self, KernelError> {
         let usage = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
-        let driven = Driven { buffer: gpu.buffer("drive", 112, usage)?, entered: face_rows(setup) };
+        let entered = face_rows(setup);
+        let walls_move = any_moves(&entered);
+        let driven = Driven { buffer: gpu.buffer("drive", 112, usage)?, entered, walls_move };
         driven.write(gpu, setup);
         Ok(driven)
     }
@@ -38,8 +47,7 @@ impl Driven {
     /// Uploads the body force of now and the face values that populations come in with next.
     fn write(&self, gpu: &Gpu, setup: &Setup) {
         let g = setup.body_force.unwrap_or_else(Vec3::zeros).map(single);
-        let moves = self.entered.iter().any(|row| row[..3] != [0.0; 3]);
-        let mut rows = vec![[g.x, g.y, g.z, f32::from(u8::from(moves))]];
+        let mut rows = vec![[g.x, g.y, g.z, 0.0]];
         rows.extend(self.entered);
         gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&rows));
     }
@@ -49,8 +57,24 @@ impl Kernel {
     /// Lets `drive` drive the fluid from now on. Errors, and changes nothing, as [`Setup::set_drive`].
     pub fn set_drive(&mut self, drive: &Drive) -> Result<(), DriveError> {
         self.setup.set_drive(drive)?;
+        self.let_walls_move(&face_rows(&self.setup));
         self.driven.write(&self.gpu, &self.setup);
         Ok(())
+    }
+
+    /// Has shaders with face velocities in them made if one of these is the first.
+    fn let_walls_move(&mut self, rows: &FaceRows) {
+        if !self.driven.walls_move && any_moves(rows) {
+            self.driven.walls_move = true;
+            for pipeline in [
+                &mut self.step_listed,
+                &mut self.step_listed_with_loads,
+                &mut self.observe,
+                &mut self.summary,
+            ] {
+                *pipeline = OnceCell::new();
+            }
+        }
     }
 
     /// Whether the step made last had the face values of now.
@@ -77,6 +101,7 @@ impl Kernel {
         row: impl FnOnce(&mut [u8]) -> io::Result<()>,
     ) -> io::Result<()> {
         row(bytemuck::cast_slice_mut(&mut self.driven.entered))?;
+        self.let_walls_move(&self.driven.entered.clone());
         self.driven.write(&self.gpu, &self.setup);
         Ok(())
     }
@@ -99,7 +124,11 @@ pub(super) fn face(axis: usize, is_high: bool) -> String {
     format!("drive.faces[{}]", 2 * axis + usize::from(is_high))
 }
 
-/// Whether any face of a set-up holds a value.
-pub(super) fn has_face_values(setup: &Setup) -> bool {
-    setup.drive().faces.as_flattened().iter().any(|value| *value != FaceValue::None)
+/// Whether any face of a set-up holds a density.
+pub(super) fn has_densities(setup: &Setup) -> bool {
+    setup.drive().faces.as_flattened().iter().any(|value| matches!(value, FaceValue::Density(_)))
+}
+
+fn any_moves(rows: &FaceRows) -> bool {
+    rows.iter().any(|row| row[..3] != [0.0; 3])
 }

@@ -92,19 +92,25 @@ impl Kernel {
         let layout = Layout::new(&setup.domain, gpu.facts())?;
         super::memory::check(gpu.facts(), &layout)?;
         let still = Vec3::zeros();
+        let driven = Driven::new(gpu, &setup)?;
+        let mut recipe = Recipe {
+            setup: &setup,
+            layout,
+            solids: SolidData::None,
+            walls_move: driven.walls_move,
+        };
         let solids = match &setup.solid_phase {
             Some(phase) if can_move || !phase.solids.is_empty() => {
                 let moves = phase
                     .solids
                     .iter()
                     .any(|solid| solid.velocity != still || solid.angular_velocity != still);
-                let solids = if can_move || moves { SolidData::Moving } else { SolidData::Fixed };
-                Some(Solids::new(gpu, &Recipe { setup: &setup, layout, solids }, phase)?)
+                recipe.solids =
+                    if can_move || moves { SolidData::Moving } else { SolidData::Fixed };
+                Some(Solids::new(gpu, &recipe, phase)?)
             }
             _ => None,
         };
-        let data = solids.as_ref().map_or(SolidData::None, Solids::data);
-        let recipe = Recipe { setup: &setup, layout, solids: data };
         let with_solids = solids.as_ref().is_some_and(|solids| solids.in_every_cell);
         let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids, with_loads: false })?;
         let face_cells = recipe.face_cells();
@@ -125,7 +131,7 @@ impl Kernel {
             list: Growing::new(gpu, "list of cells")?,
             list_count: 0,
             tasks: Tasks::new(gpu)?,
-            driven: Driven::new(gpu, &setup)?,
+            driven,
             step,
             step_with_loads: OnceCell::new(),
             first_step: OnceCell::new(),
@@ -173,7 +179,12 @@ impl Kernel {
 
     pub(super) fn recipe(&self) -> Recipe<'_> {
         let solids = self.solids.as_ref().map_or(SolidData::None, Solids::data);
-        Recipe { setup: &self.setup, layout: self.layout, solids }
+        Recipe {
+            setup: &self.setup,
+            layout: self.layout,
+            solids,
+            walls_move: self.driven.walls_move,
+        }
     }
 
     pub(super) fn pipeline<'a>(

@@ -88,14 +88,15 @@ fn keep(layout: &Layout) -> String {
     text + "}\n"
 }
 
-/// WGSL function `entering`: the same as `wrapped`, with the faces. `writes`: whether the shader makes steps.
-pub(super) fn faces(domain: &Domain, layout: &Layout, writes: bool) -> String {
+/// WGSL function `entering`: the same as `wrapped`, with the faces. `walls_move`: whether walls or inlets have velocities;
+/// `writes`: whether the shader makes steps.
+pub(super) fn faces(domain: &Domain, layout: &Layout, walls_move: bool, writes: bool) -> String {
     let mut rules = String::new();
     let mut needed = Needs::Nothing;
     for a in 1..Q {
         let mut word = "if";
         for crossed in crossings(a) {
-            let Some(rule) = rule(domain, layout, a, &crossed) else { continue };
+            let Some(rule) = rule(domain, layout, walls_move, a, &crossed) else { continue };
             needed = needed.max(rule.needs);
             let conditions: Vec<&str> =
                 crossed.iter().map(|&axis| AT_FACE[axis][usize::from(C[a][axis] < 0)]).collect();
@@ -123,10 +124,7 @@ pub(super) fn faces(domain: &Domain, layout: &Layout, writes: bool) -> String {
         text += NEIGHBOURS;
         text += match needed {
             Needs::Nothing => "",
-            // Walls at rest cost nothing.
-            Needs::Density => {
-                "    var rho = 1.0;\n    if (drive.moves > 0.0) {\n        rho += sum(own(x, y, z));\n    }\n"
-            }
+            Needs::Density => "    let rho = 1.0 + sum(own(x, y, z));\n",
             Needs::Velocity => {
                 "    let here = own(x, y, z);\n    let rho = 1.0 + sum(here);\n    \
                  let u = momentum(here) / rho;\n    let u2 = dot(u, u);\n"
@@ -228,7 +226,13 @@ struct Rule {
 }
 
 /// What enters along `a` where the link crosses faces along these axes; `None` if all are periodic.
-fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option<Rule> {
+fn rule(
+    domain: &Domain,
+    layout: &Layout,
+    walls_move: bool,
+    a: usize,
+    crossed: &[usize],
+) -> Option<Rule> {
     let c = C[a].map(f64::from);
     let w = weight(a);
     let mut walls = Vec::new();
@@ -275,6 +279,7 @@ fn rule(domain: &Domain, layout: &Layout, a: usize, crossed: &[usize]) -> Option
     }
     let back = old(layout, OPPOSITE[a], &["x0", "y0", "z0"]);
     Some(match (walls.is_empty(), pressure) {
+        (false, _) if !walls_move => Rule { expression: back, needs: Needs::Nothing },
         (false, _) => {
             // f_a = f*_-a + 6 w_a ρ (c_a·u_w)
             let c = c.map(literal).join(", ");

@@ -75,7 +75,9 @@ fn cells_one_at_a_time_and_populations_over_two_bindings_give_the_same() {
 fn thousand_steps_stay_within_rounding_of_the_oracle(engine: EngineName) {
     let mut budget = Budget::kernel(6_000_000);
     let mut random = Random(2);
-    for (name, setup) in scenes().into_iter().skip(1).step_by(3) {
+    // A lid, an open box, solids that move, with the non-reflecting faces too.
+    let chosen = [2, 4, 8, 10];
+    for (_, (name, setup)) in scenes().into_iter().enumerate().filter(|(i, _)| chosen.contains(i)) {
         let start = waves(&mut random, &setup.domain);
         let mut both = Both::new(engine, &setup, &start);
         both.run(&mut budget, 1000);

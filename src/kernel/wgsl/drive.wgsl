@@ -3,8 +3,6 @@
 struct Drive {
     // Body force per volume.
     force: vec3<f32>,
-    // Whether any face has a velocity: 0 or 1.
-    moves: f32,
     // Velocity and density less 1 of each face: -x, +x, -y, ...
     faces: array<vec4<f32>, 6>,
 }

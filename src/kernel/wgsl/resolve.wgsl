@@ -19,6 +19,11 @@
 fn weight_of(sum: f32) -> f32 {
     let epsilon = min(sum, 1.0);
 //#if NOBLE
+    // A quotient may be 2.5 units in the last place off (WGSL, accuracy of division), also that of equal numbers.
+    // In a full cell nothing but bounce-back acts on the rest population: 1 - B = 1e-7 would let it relax all the same.
+    if (epsilon == 1.0) {
+        return 1.0;
+    }
     // B = ε (τ - 1/2) / [(1 - ε) + (τ - 1/2)]
     return epsilon * EXCESS / (1.0 - epsilon + EXCESS);
 //#else
