@@ -12,6 +12,7 @@
 //! | [`advice`] | what a scene will cost, how wrong it will be and what may go wrong; the cheapest settings |
 //! | [`exact`] | exact solutions to compare with |
 //! | [`courses`] | what prescribed spheres run into |
+//! | [`diagnosis`] | why a run was stopped, and what to change |
 //! | [`stopped_grain`] | why a run stopped at a free grain |
 //! | [`command`] | the commands of the command line |
 //! | [`packing`] | packings, suspensions and settled beds of grains to start from |
@@ -35,6 +36,7 @@ pub mod command;
 pub mod conformance;
 pub mod courses;
 pub mod cpu;
+pub mod diagnosis;
 pub mod engine;
 pub mod exact;
 pub mod input;

@@ -273,7 +273,7 @@ impl<'a> Run<'a> {
         let now = engine.steps();
         let mut written = Ok(());
         if self.recorders.iter().any(|recorder| recorder.record.interval.is_due(now)) {
-            engine.look()?;
+            engine.check()?;
             if !self.folder.is_there() {
                 written = Err(io::Error::from(io::ErrorKind::NotFound));
             }
@@ -312,7 +312,7 @@ impl<'a> Run<'a> {
     }
 
     fn save_into(&mut self, folder: &RunFolder, engine: &mut Coupled) -> Result<(), RunError> {
-        engine.look()?;
+        engine.check()?;
         let tables = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
         let progress = Progress { tables, steady: self.steady.as_ref().map(steady::Watch::save) };
         checkpoint::save(folder, self.scene, engine, progress)?;
@@ -348,7 +348,7 @@ impl<'a> Run<'a> {
 
     /// Takes the records that are due at the end. Errors if the state is broken.
     fn finish(&mut self, engine: &mut Coupled) -> Result<(), RunError> {
-        engine.look()?;
+        engine.check()?;
         for recorder in &mut self.recorders {
             if recorder.record.interval == OutputInterval::AtEnd {
                 recorder.take(self.scene, engine)?;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use psmrt_reference::coupling::{CoupledStop, Gravity};
+use psmrt_reference::coupling::Gravity;
 use psmrt_reference::grains::hold::{self, DEEPEST, Obstacle, Sunk};
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
@@ -41,7 +41,7 @@ impl fmt::Display for GrainStop {
 
 /// The stop in SI units if a free grain is to blame.
 pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &Coupled) -> Option<GrainStop> {
-    let EngineStop::Broken(CoupledStop::Grains(error)) = stop else { return None };
+    let EngineStop::Grains(error) = stop else { return None };
     let case = Case { scene, part: scene.free.as_ref()?, system: engine.free_grains()? };
     let (failure, cause, remedy) = match error {
         GrainError::Sunk(sunk) => case.sunk(sunk),

@@ -149,7 +149,7 @@ impl Solver {
 
     /// One step of the fluid, the solids staying where they are. Errors as [`Self::step`].
     pub fn advance_fluid(&mut self) -> Result<(), Stopped> {
-        self.guard.look(&self.setup, &self.f, self.steps)?;
+        self.guard.check(&self.setup.domain, &self.f, self.steps)?;
         self.advance_unguarded();
         Ok(())
     }
@@ -178,7 +178,7 @@ impl Solver {
 
     /// Looks for a broken state now, whatever the step.
     pub fn check_now(&mut self) -> Result<(), Stopped> {
-        self.guard.look_now(&self.setup, &self.f, self.steps)
+        self.guard.check_now(&self.setup.domain, &self.f, self.steps)
     }
 
     /// Collides every cell into `post` and adds up what each solid receives, plane by plane.
@@ -220,7 +220,7 @@ impl Solver {
     /// Mean density at the guard's last look over that at its first. A velocity inlet with a free
     /// outflow leaves it free, all other domains hold it.
     pub fn density_drift(&self) -> f64 {
-        self.guard.density_drift()
+        self.guard.evidence().density_drift()
     }
 
     /// The set-up, with the solids where they are now and the drive of now.

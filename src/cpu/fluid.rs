@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::{Drive, DriveError};
-use psmrt_reference::guard::{Failure, Guard, Sight};
+use psmrt_reference::guard::{Failure, Guard, Findings};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
@@ -342,7 +342,7 @@ impl<T: Real> Fluid<T> {
     }
 
     /// What `guard` wants to know of all cells.
-    pub fn sight(&self, guard: &Guard) -> Sight {
+    pub fn findings(&self, guard: &Guard) -> Findings {
         // Cells that come near the limit are looked at again by the guard, in all digits.
         let limit = self.setup.guard.max_speed * 0.999;
         let parts = self.look_at_runs(|first, seen| {
@@ -364,7 +364,7 @@ impl<T: Real> Fluid<T> {
             (sum(&seen.of[0][..count]), fastest, broken)
         });
         let n = self.setup.domain.cell_count() as f64;
-        Sight {
+        Findings {
             mean_density: 1.0 + parts.iter().map(|part| part.0).sum::<f64>() / n,
             max_speed: parts.iter().map(|part| part.1).fold(0.0, f64::max).sqrt(),
             broken: parts.into_iter().find_map(|part| part.2),

@@ -6,21 +6,22 @@
 
 use std::cell::RefCell;
 
-use psmrt_reference::coupling::{CoupledStop, FreeGrains, Gravity, with_displaced};
+use psmrt_reference::coupling::{FreeGrains, Gravity, with_displaced};
 use psmrt_reference::directions::Q;
 use psmrt_reference::drive::Drive;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
-use psmrt_reference::guard::{Cause, Guard, Stopped};
+use psmrt_reference::guard::Guard;
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
 use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine, StartError};
+use crate::diagnosis::diagnosed;
 use crate::machine::{Beginning, Spent};
 use crate::scene::FreePart;
 
-/// A grain further off than cells can be numbered is as lost as one that is nowhere: between two looks of the
+/// A grain further off than cells can be numbered is as lost as one that is nowhere: between two checks of the
 /// guard a load that has broken throws a light grain so far.
 const FARTHEST: f64 = 2_147_483_648.0;
 
@@ -107,10 +108,10 @@ impl Coupled {
         let interval = self.fluid.setup().guard.interval.max(1);
         while self.steps < end {
             if self.guard.is_due(self.steps) {
-                self.look()?;
+                self.check()?;
             }
-            let next_look = (self.steps / interval + 1) * interval;
-            let now = if moves { 1 } else { end.min(next_look) - self.steps };
+            let next_check = (self.steps / interval + 1) * interval;
+            let now = if moves { 1 } else { end.min(next_check) - self.steps };
             let is_last = self.steps + now == end;
             self.fluid.advance(now, is_free || is_last)?;
             self.steps += now;
@@ -153,28 +154,27 @@ impl Coupled {
         };
         let loads: Vec<Load> = part.solids.iter().map(|&solid| loads[solid]).collect();
         let since = self.profile.is_some().then(Beginning::now);
-        moving.step(&loads).map_err(CoupledStop::from)?;
+        moving.step(&loads)?;
         let moved = moving.solids();
         if let (Some(profile), Some(since)) = (&mut self.profile, since) {
             profile.grains.add(since);
         }
         if let Some(grain) = moved.iter().position(|solid| solid.centre.amax() > FARTHEST) {
             let position = moved[grain].centre.into();
-            return Err(CoupledStop::Grains(GrainError::NotFinite { grain, position }).into());
+            return Err(GrainError::NotFinite { grain, position }.into());
         }
         part.solids.iter().zip(moved).for_each(|(&number, solid)| solids[number] = solid);
         Ok(())
     }
 
-    /// Looks for a broken state now, whatever the step. Errors as [`Self::step`].
-    pub fn look(&mut self) -> Result<(), EngineStop> {
-        let sight = self.fluid.sight(&self.guard)?;
-        let judged = self.guard.judge(self.fluid.setup(), self.steps, &sight);
-        let explained = judged.map_err(|stopped| match &self.grains {
-            Some(Grains { moving, part }) => by_solid(moving.explain(stopped), &part.solids),
-            None => stopped,
-        });
-        Ok(explained.map_err(CoupledStop::from)?)
+    /// Checks for a broken state now, whatever the step. Errors as [`Self::step`].
+    pub fn check(&mut self) -> Result<(), EngineStop> {
+        let findings = self.fluid.findings(&self.guard)?;
+        let setup = self.fluid.setup();
+        let judged = self.guard.judge(&setup.domain, self.steps, &findings);
+        let grains = self.grains.as_ref();
+        let grains = grains.map(|Grains { moving, part }| (moving, part.solids.as_slice()));
+        Ok(judged.map_err(|stopped| diagnosed(stopped, setup, grains))?)
     }
 
     /// Errors if the device has failed while something was observed: what was seen then is not a
@@ -259,15 +259,5 @@ impl Coupled {
     pub fn displaced(&self) -> Vec<f64> {
         let found = self.observed(self.fluid.displaced());
         found.unwrap_or_else(|| vec![f64::NAN; self.solids().len()])
-    }
-}
-
-/// The stop with the number of the solid where the grains have given theirs.
-fn by_solid(stopped: Stopped, solids: &[usize]) -> Stopped {
-    match stopped.cause {
-        Cause::LightGrain { solid: grain, ratio } => {
-            Stopped { cause: Cause::LightGrain { solid: solids[grain], ratio }, ..stopped }
-        }
-        _ => stopped,
     }
 }

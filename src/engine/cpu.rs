@@ -4,7 +4,7 @@ use std::io::{self, Read, Write};
 
 use psmrt_reference::directions::C;
 use psmrt_reference::drive::Drive;
-use psmrt_reference::guard::{Guard, Sight};
+use psmrt_reference::guard::{Guard, Findings};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
@@ -75,8 +75,8 @@ impl<T: Real> FluidEngine for CpuEngine<T> {
         Ok(BoxMeans { density, mass_flux, max_speed })
     }
 
-    fn sight(&self, guard: &Guard) -> Result<Sight, DeviceError> {
-        Ok(self.fluid.sight(guard))
+    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
+        Ok(self.fluid.findings(guard))
     }
 
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {

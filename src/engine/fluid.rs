@@ -6,7 +6,7 @@ use std::fmt;
 use std::io::{self, Read, Write};
 
 use psmrt_reference::drive::Drive;
-use psmrt_reference::guard::{Guard, Sight};
+use psmrt_reference::guard::{Guard, Findings};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
@@ -78,7 +78,7 @@ pub trait FluidEngine: fmt::Debug + Send {
     fn means(&self) -> Result<BoxMeans, DeviceError>;
 
     /// What `guard` wants to know of all cells.
-    fn sight(&self, guard: &Guard) -> Result<Sight, DeviceError>;
+    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError>;
 
     /// The state of the cells of a block, x fastest, z slowest.
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError>;

@@ -23,11 +23,12 @@ mod wgpu;
 use std::error::Error;
 use std::sync::Arc;
 
-use psmrt_reference::coupling::CoupledStop;
 use psmrt_reference::drive::DriveError;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::setup::SetupError;
 use thiserror::Error;
+
+use crate::diagnosis::Diagnosis;
 
 pub use block::Block;
 pub use coupled::{Coupled, Profile};
@@ -82,9 +83,12 @@ pub enum StartError {
 /// Why an engine cannot go on.
 #[derive(Debug, Error)]
 pub enum EngineStop {
-    /// The guard of the fluid has stopped it, or the grains cannot be moved.
+    /// The guard of the fluid has stopped it.
     #[error(transparent)]
-    Broken(#[from] CoupledStop),
+    Broken(#[from] Diagnosis),
+    /// The free grains cannot be moved.
+    #[error(transparent)]
+    Grains(#[from] GrainError),
     /// The device has failed.
     #[error(transparent)]
     Device(#[from] DeviceError),

@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::drive::Drive;
 use psmrt_reference::forcing::forced_velocity;
-use psmrt_reference::guard::{Guard, Sight};
+use psmrt_reference::guard::{Guard, Findings};
 use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
@@ -108,8 +108,8 @@ impl FluidEngine for ReferenceEngine {
         })
     }
 
-    fn sight(&self, guard: &Guard) -> Result<Sight, DeviceError> {
-        Ok(guard.sight(self.solver.populations()))
+    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
+        Ok(guard.findings(self.solver.populations()))
     }
 
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::Drive;
-use psmrt_reference::guard::{Guard, Sight};
+use psmrt_reference::guard::{Guard, Findings};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
@@ -87,7 +87,7 @@ impl FluidEngine for KernelEngine {
         Ok(BoxMeans { density, mass_flux, max_speed: speed })
     }
 
-    fn sight(&self, guard: &Guard) -> Result<Sight, DeviceError> {
+    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
         let Summary { density, bare_speed, broken, .. } = self.kernel.summary()?;
         let broken = match broken {
             None => None,
@@ -96,7 +96,7 @@ impl FluidEngine for KernelEngine {
                 f.first().and_then(|f| Some((cell, guard.failure(f)?)))
             }
         };
-        Ok(Sight { mean_density: density, max_speed: bare_speed, broken })
+        Ok(Findings { mean_density: density, max_speed: bare_speed, broken })
     }
 
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {

@@ -29,7 +29,6 @@ mod grains_rolling;
 mod grains_system;
 mod grains_values;
 mod guard;
-mod guard_causes;
 mod leakage;
 mod limits;
 mod moments;

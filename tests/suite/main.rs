@@ -32,6 +32,7 @@ mod cli_run;
 mod conformance_files;
 mod conformance_oracle;
 mod cpu_engine;
+mod diagnosis;
 mod drive;
 mod exact_text;
 mod extremes;

@@ -190,7 +190,7 @@ impl FreeGrains {
     }
 
     /// The fluid's domain.
-    pub(super) fn domain(&self) -> &Domain {
+    pub fn domain(&self) -> &Domain {
         &self.domain
     }
 

@@ -31,7 +31,6 @@
 //! the grains alone, `Σ_s m_s v_0`.
 
 mod balance;
-mod explain;
 mod free_grains;
 
 use crate::grains::grain::Grain;
@@ -115,7 +114,7 @@ impl CoupledSolver {
 
     /// One step of fluid and grains. Errors when either is broken.
     pub fn step(&mut self) -> Result<(), CoupledStop> {
-        self.fluid.advance_fluid().map_err(|stopped| self.grains.explain(stopped))?;
+        self.fluid.advance_fluid()?;
         self.grains.step(&loads(&self.fluid, self.grains.settings()))?;
         let solids = self.grains.solids();
         self.fluid.place_solids(|number, solid| {
@@ -133,7 +132,7 @@ impl CoupledSolver {
 
     /// Looks for a broken state of the fluid now, whatever the step.
     pub fn check_now(&mut self) -> Result<(), CoupledStop> {
-        Ok(self.fluid.check_now().map_err(|stopped| self.grains.explain(stopped))?)
+        Ok(self.fluid.check_now()?)
     }
 
     /// What acts on each grain besides contacts in the coming step, the fluid's last load included.
@@ -149,6 +148,11 @@ impl CoupledSolver {
     /// The grains.
     pub fn grains(&self) -> &GrainSystem {
         self.grains.system()
+    }
+
+    /// The grains, with how the fluid acts on them.
+    pub fn free_grains(&self) -> &FreeGrains {
+        &self.grains
     }
 
     /// How fluid and grains act on each other.

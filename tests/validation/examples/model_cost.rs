@@ -126,7 +126,7 @@ fn time(engine: &mut Coupled, model: &Model) -> Result<f64, Failure> {
     for _ in 0..SLICE / batch {
         engine.step(batch)?;
         if model.record_every.is_some() {
-            engine.look()?;
+            engine.check()?;
             engine.box_means();
         }
     }

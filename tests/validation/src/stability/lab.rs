@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use psmrt_reference::coupling::CoupledStop;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::guard::{Failure, GuardSettings};
@@ -11,6 +10,7 @@ use psmrt_reference::setup::Setup;
 
 use super::start::populations;
 use super::{LabError, Line};
+use psmrt::diagnosis::Diagnosis;
 use psmrt::engine::{Coupled, EngineStop, StartError, from_populations, starting_from};
 use psmrt::kernel::Gpu;
 use psmrt::scene::FreePart;
@@ -71,21 +71,21 @@ impl Lab {
 /// moved, and otherwise if the set-up is refused or the device fails.
 pub(super) fn go_on(engine: &mut Coupled, end: u64) -> Result<(), LabError> {
     let left = end.saturating_sub(engine.steps());
-    match engine.step(left).and_then(|()| engine.look()) {
+    match engine.step(left).and_then(|()| engine.check()) {
         Ok(()) => Ok(()),
-        Err(EngineStop::Broken(CoupledStop::Fluid(stop))) => {
-            let how = match stop.failure {
+        Err(EngineStop::Broken(Diagnosis { stopped, .. })) => {
+            let how = match stopped.failure {
                 Failure::NotFinite => "not_finite",
                 Failure::NoDensity(_) => "no_density",
                 Failure::TooFast(_) => "too_fast",
                 Failure::MeanDensity(_) => "mean_density",
             };
-            Err(LabError::Stopped { steps: stop.step, how })
+            Err(LabError::Stopped { steps: stopped.step, how })
         }
-        Err(EngineStop::Broken(CoupledStop::Grains(error @ GrainError::Substep(_)))) => {
+        Err(EngineStop::Grains(error @ GrainError::Substep(_))) => {
             Err(LabError::Start(StartError::Grains(error)))
         }
-        Err(EngineStop::Broken(CoupledStop::Grains(_))) => {
+        Err(EngineStop::Grains(_)) => {
             Err(LabError::Stopped { steps: engine.steps(), how: "grains" })
         }
         Err(error) => Err(error.into()),

@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 
 use psmrt_reference::directions::C;
 use psmrt_reference::drive::Drive;
-use psmrt_reference::guard::{Guard, Sight};
+use psmrt_reference::guard::{Guard, Findings};
 use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
@@ -107,8 +107,8 @@ impl FluidEngine for RoundedEngine {
         self.inner.means()
     }
 
-    fn sight(&self, guard: &Guard) -> Result<Sight, DeviceError> {
-        self.inner.sight(guard)
+    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
+        self.inner.findings(guard)
     }
 
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {
