@@ -126,12 +126,7 @@ impl Guard {
     }
 
     /// Checks every cell if it is time to. Errors as [`Self::check_now`].
-    pub fn check(
-        &mut self,
-        domain: &Domain,
-        f: &[Populations],
-        step: u64,
-    ) -> Result<(), Stopped> {
+    pub fn check(&mut self, domain: &Domain, f: &[Populations], step: u64) -> Result<(), Stopped> {
         if self.is_due(step) { self.check_now(domain, f, step) } else { Ok(()) }
     }
 

@@ -174,7 +174,7 @@ impl Coupled {
         let judged = self.guard.judge(&setup.domain, self.steps, &findings);
         let grains = self.grains.as_ref();
         let grains = grains.map(|Grains { moving, part }| (moving, part.solids.as_slice()));
-        Ok(judged.map_err(|stopped| diagnosed(stopped, setup, grains))?)
+        Ok(judged.map_err(|stopped| Box::new(diagnosed(stopped, setup, grains)))?)
     }
 
     /// Errors if the device has failed while something was observed: what was seen then is not a

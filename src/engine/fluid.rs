@@ -6,7 +6,7 @@ use std::fmt;
 use std::io::{self, Read, Write};
 
 use psmrt_reference::drive::Drive;
-use psmrt_reference::guard::{Guard, Findings};
+use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};

@@ -85,7 +85,7 @@ pub enum StartError {
 pub enum EngineStop {
     /// The guard of the fluid has stopped it.
     #[error(transparent)]
-    Broken(#[from] Diagnosis),
+    Broken(#[from] Box<Diagnosis>),
     /// The free grains cannot be moved.
     #[error(transparent)]
     Grains(#[from] GrainError),

@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::drive::Drive;
 use psmrt_reference::forcing::forced_velocity;
-use psmrt_reference::guard::{Guard, Findings};
+use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::Drive;
-use psmrt_reference::guard::{Guard, Findings};
+use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};

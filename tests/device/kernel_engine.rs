@@ -327,15 +327,21 @@ fn guard_stops_a_run_where_and_why_the_oracles_does(engine: EngineName) {
     let scene = scene(RUNAWAY, &[]);
     let stopped = |engine: &mut Coupled| -> Diagnosis {
         match engine.step(200) {
-            Err(EngineStop::Broken(stopped)) => stopped,
+            Err(EngineStop::Broken(diagnosis)) => *diagnosis,
             other => panic!("not stopped by the guard: {other:?}"),
         }
     };
     let found = stopped(&mut opened(engine, &scene));
     let expected = stopped(&mut opened(EngineName::Reference, &scene));
     println!("{found}\n{expected}");
-    assert_eq!((found.stopped.step, found.stopped.cell), (expected.stopped.step, expected.stopped.cell));
-    assert_eq!(std::mem::discriminant(&found.stopped.failure), std::mem::discriminant(&expected.stopped.failure));
+    assert_eq!(
+        (found.stopped.step, found.stopped.cell),
+        (expected.stopped.step, expected.stopped.cell)
+    );
+    assert_eq!(
+        std::mem::discriminant(&found.stopped.failure),
+        std::mem::discriminant(&expected.stopped.failure)
+    );
     assert_eq!(std::mem::discriminant(&found.cause), std::mem::discriminant(&expected.cause));
 }
 

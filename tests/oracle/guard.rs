@@ -42,7 +42,11 @@ fn guard_checks_at_its_interval_and_no_broken_state_passes_it() {
         setup.guard = GuardSettings { interval, ..GuardSettings::default() };
         let stopped = Solver::new(setup).unwrap().run(2000).expect_err("nothing holds it back");
         assert!(matches!(stopped.failure, Failure::TooFast(_)), "{stopped}");
-        assert_eq!(stopped.step % interval, 0, "checked every {interval} steps, and stopped: {stopped}");
+        assert_eq!(
+            stopped.step % interval,
+            0,
+            "checked every {interval} steps, and stopped: {stopped}"
+        );
         // 0.5 of speed at 1e-3 a step takes 500 steps.
         assert!(
             (500..500 + interval + 1).contains(&stopped.step),

@@ -232,7 +232,7 @@ fn guard_sees_the_first_broken_cell_that_it_sees_on_the_oracle() {
             f[cell][1] = broken;
         }
         let cpu = CpuEngine::<f64>::start(setup.clone(), &Start::Populations(&f));
-        let (found, expected) = (cpu.sight(&guard).unwrap(), guard.sight(&f));
+        let (found, expected) = (cpu.findings(&guard).unwrap(), guard.findings(&f));
         assert!(
             format!("{:?}", found.broken) == format!("{:?}", expected.broken),
             "with a population of {broken}: broken is {:?}, the guard finds {:?}",

@@ -10,7 +10,6 @@ use psmrt_reference::setup::Setup;
 
 use super::start::populations;
 use super::{LabError, Line};
-use psmrt::diagnosis::Diagnosis;
 use psmrt::engine::{Coupled, EngineStop, StartError, from_populations, starting_from};
 use psmrt::kernel::Gpu;
 use psmrt::scene::FreePart;
@@ -73,14 +72,14 @@ pub(super) fn go_on(engine: &mut Coupled, end: u64) -> Result<(), LabError> {
     let left = end.saturating_sub(engine.steps());
     match engine.step(left).and_then(|()| engine.check()) {
         Ok(()) => Ok(()),
-        Err(EngineStop::Broken(Diagnosis { stopped, .. })) => {
-            let how = match stopped.failure {
+        Err(EngineStop::Broken(diagnosis)) => {
+            let how = match diagnosis.stopped.failure {
                 Failure::NotFinite => "not_finite",
                 Failure::NoDensity(_) => "no_density",
                 Failure::TooFast(_) => "too_fast",
                 Failure::MeanDensity(_) => "mean_density",
             };
-            Err(LabError::Stopped { steps: stopped.step, how })
+            Err(LabError::Stopped { steps: diagnosis.stopped.step, how })
         }
         Err(EngineStop::Grains(error @ GrainError::Substep(_))) => {
             Err(LabError::Start(StartError::Grains(error)))

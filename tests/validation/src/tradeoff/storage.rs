@@ -7,7 +7,7 @@ use std::io::{self, Read, Write};
 
 use psmrt_reference::directions::C;
 use psmrt_reference::drive::Drive;
-use psmrt_reference::guard::{Guard, Findings};
+use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::{Setup, SetupError};
 use psmrt_reference::solids::{Load, Solid};
