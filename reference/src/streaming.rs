@@ -14,26 +14,20 @@ pub fn stream(
     post: &[Populations],
     f: &mut [Populations],
 ) {
-    let [nx, ny, nz] = domain.cells();
+    let [nx, ny, _] = domain.cells();
     for_each_plane(f, nx * ny, |z, plane| {
+        let along_z = upstream(domain, 2, z, nx * ny);
         for y in 0..ny {
+            let along_y = upstream(domain, 1, y, nx);
             for x in 0..nx {
-                let cell = [x, y, z];
-                let here = domain.index(cell);
-                let interior = [(x, nx), (y, ny), (z, nz)].iter().all(|&(i, n)| i > 0 && i + 1 < n);
+                let along_x = upstream(domain, 0, x, 1);
+                let cell = &mut plane[x + nx * y];
                 for a in 0..Q {
+                    let [cx, cy, cz] = C[a].map(|component| (component + 1) as usize);
                     // f_a(x, t+1) = f*_a(x - c_a, t)
-                    plane[x + nx * y][a] = if interior {
-                        let [cx, cy, cz] = C[a].map(|component| component as isize);
-                        let offset = cx + nx as isize * (cy + ny as isize * cz);
-                        post[here.wrapping_add_signed(-offset)][a]
-                    } else if crosses(cell, [nx, ny, nz], a) {
-                        entering(domain, slow_means, post, cell, a)
-                    } else {
-                        let from = std::array::from_fn(|axis| {
-                            cell[axis].wrapping_add_signed(-C[a][axis] as isize)
-                        });
-                        post[domain.index(from)][a]
+                    cell[a] = match (along_x[cx], along_y[cy], along_z[cz]) {
+                        (Some(x), Some(y), Some(z)) => post[x + y + z][a],
+                        _ => entering(domain, slow_means, post, [x, y, z], a),
                     };
                 }
             }
@@ -41,11 +35,13 @@ pub fn stream(
     });
 }
 
-/// Whether direction `a` enters cell `x` from outside a domain of `n` cells.
-fn crosses(x: [usize; 3], n: [usize; 3], a: usize) -> bool {
-    (0..3).any(|axis| match C[a][axis] {
-        1 => x[axis] == 0,
-        -1 => x[axis] + 1 == n[axis],
-        _ => false,
-    })
+/// Where a population that arrives at coordinate `x` of an axis comes from, for the components -1, 0 and 1 of its
+/// direction: `stride` times the coordinate there, round the domain where it is periodic; `None` where it comes in at another
+/// face.
+fn upstream(domain: &Domain, axis: usize, x: usize, stride: usize) -> [Option<usize>; 3] {
+    let last = domain.cells()[axis] - 1;
+    let wrapped = |x: usize| domain.is_periodic(axis).then_some(x);
+    let above = if x < last { Some(x + 1) } else { wrapped(0) };
+    let below = if x > 0 { Some(x - 1) } else { wrapped(last) };
+    [above, Some(x), below].map(|from| from.map(|x| stride * x))
 }

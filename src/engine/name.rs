@@ -71,6 +71,11 @@ impl EngineName {
         }
     }
 
+    /// Whether it computes in double precision.
+    pub fn is_double(self) -> bool {
+        self.bytes_of_number() == 8
+    }
+
     /// Bytes of a number of its fields.
     pub fn bytes_of_number(self) -> u8 {
         match self {

@@ -33,8 +33,8 @@ const LADDERS: [(f64, &[f64]); 3] = [
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let oracle = Bench::new(Path::new("golden"), None, |_| {});
-    let kernel = Bench::new(Path::new("golden"), Some(Gpu::open(None)?), |_| {});
+    let oracle = Bench::new(Path::new("golden"), EngineName::Reference, None, |_| {});
+    let kernel = Bench::new(Path::new("golden"), EngineName::Wgpu, Some(Gpu::open(None)?), |_| {});
     for mut bench in [oracle, kernel] {
         for (tau, numbers) in LADDERS {
             // The oracle where the pressure is largest; the kernel, which is faster, everywhere.

@@ -8,6 +8,7 @@
 //! cargo run --release -p psmrt-validation --example seepage_study [stability]
 //! ```
 
+use psmrt::engine::EngineName;
 use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
@@ -44,9 +45,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn study() -> Result<(), Box<dyn Error>> {
-    add_rows(&mut Bench::new(Path::new("golden"), None, |_| {}), &oracle_runs())?;
+    add_rows(
+        &mut Bench::new(Path::new("golden"), EngineName::Reference, None, |_| {}),
+        &oracle_runs(),
+    )?;
     let gpu = Gpu::open(None)?;
-    add_rows(&mut Bench::new(Path::new("golden"), Some(gpu), |_| {}), &kernel_runs())
+    add_rows(
+        &mut Bench::new(Path::new("golden"), EngineName::Wgpu, Some(gpu), |_| {}),
+        &kernel_runs(),
+    )
 }
 
 fn add_rows(bench: &mut Bench, runs: &[Bed]) -> Result<(), Box<dyn Error>> {
@@ -138,8 +145,9 @@ fn kernel_runs() -> Vec<Bed> {
 
 /// Doubles the force until the flow breaks, or the Reynolds number is past 200.
 fn stability() -> Result<(), Box<dyn Error>> {
-    let mut oracle = Bench::new(Path::new("golden"), None, |_| {});
-    let mut kernel = Bench::new(Path::new("golden"), Some(Gpu::open(None)?), |_| {});
+    let mut oracle = Bench::new(Path::new("golden"), EngineName::Reference, None, |_| {});
+    let mut kernel =
+        Bench::new(Path::new("golden"), EngineName::Wgpu, Some(Gpu::open(None)?), |_| {});
     for (tau, collisions) in [
         (0.6, &[Preset::Srt, Preset::DHumieres, Preset::Trt] as &[Preset]),
         (0.55, &[Preset::Srt, Preset::DHumieres, Preset::Trt]),

@@ -9,6 +9,7 @@
 //! cargo run --release -p psmrt-validation --example sphere_drag_study
 //! ```
 
+use psmrt::engine::EngineName;
 use psmrt_reference::collision::Preset;
 use std::error::Error;
 use std::path::Path;
@@ -41,9 +42,15 @@ const PAPER: Stream = Stream {
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
-    add_rows(&mut Bench::new(Path::new("golden"), None, |_| {}), &oracle_runs())?;
+    add_rows(
+        &mut Bench::new(Path::new("golden"), EngineName::Reference, None, |_| {}),
+        &oracle_runs(),
+    )?;
     let gpu = Gpu::open(None)?;
-    add_rows(&mut Bench::new(Path::new("golden"), Some(gpu), |_| {}), &kernel_runs())
+    add_rows(
+        &mut Bench::new(Path::new("golden"), EngineName::Wgpu, Some(gpu), |_| {}),
+        &kernel_runs(),
+    )
 }
 
 fn add_rows(bench: &mut Bench, runs: &[Stream]) -> Result<(), Box<dyn Error>> {

@@ -21,6 +21,7 @@ use psmrt::table::Table;
 /// Runs scenes for cases.
 pub struct Bench {
     golden: PathBuf,
+    engine: EngineName,
     gpu: Option<Arc<Gpu>>,
     /// Told which scene runs, with its changes.
     tell: fn(&str),
@@ -49,10 +50,11 @@ pub struct Finished {
 }
 
 impl Bench {
-    /// On the oracle, or on the kernel of the device `gpu`, with the files of the folder `golden`.
-    pub fn new(golden: &Path, gpu: Option<Arc<Gpu>>, tell: fn(&str)) -> Self {
+    /// On `engine`, with the device `gpu` where that needs one, and the files of the folder `golden`.
+    pub fn new(golden: &Path, engine: EngineName, gpu: Option<Arc<Gpu>>, tell: fn(&str)) -> Self {
         Bench {
             golden: golden.to_owned(),
+            engine,
             gpu,
             tell,
             watcher: Box::new(|_| Box::new(GoOn)),
@@ -85,7 +87,7 @@ impl Bench {
 
     /// The engine.
     pub fn engine_name(&self) -> EngineName {
-        if self.gpu.is_some() { EngineName::Wgpu } else { EngineName::Reference }
+        self.engine
     }
 
     /// Cell updates so far.

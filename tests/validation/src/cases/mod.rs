@@ -46,6 +46,7 @@ use psmrt::table::{Table, TableError};
 
 pub use bench::{Bench, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
+pub use found::drawn;
 pub use seepage::bed::{Bed, Packing};
 pub use seepage::laws::{BED_LAWS, BedLaw};
 pub use sphere_drag::stream::Stream;

@@ -12,6 +12,7 @@ use psmrt::command::execute::interruption;
 use psmrt::command::progress::Progress;
 use psmrt::command::say::{say, tell};
 use psmrt::command::write;
+use psmrt::engine::EngineName;
 use psmrt::output::atomic;
 use psmrt::provenance;
 
@@ -56,10 +57,12 @@ pub fn golden(command: &GoldenCommand) -> Result<(), Failure> {
         let golden = Golden::of(case, &request.golden);
         let path = golden.path(case.rows);
         let interrupted = Arc::clone(&interrupted);
-        let mut bench = Bench::new(&request.golden, None, |what| tell(&format!("  {what}")))
-            .watched(Box::new(move |scene| {
-                Box::new(Progress::new(scene, false, Arc::clone(&interrupted)))
-            }));
+        let mut bench = Bench::new(&request.golden, EngineName::Reference, None, |what| {
+            tell(&format!("  {what}"))
+        })
+        .watched(Box::new(move |scene| {
+            Box::new(Progress::new(scene, false, Arc::clone(&interrupted)))
+        }));
         let new = bench.measure(case)?;
         let old = if path.exists() { Some(golden.table(case.rows)?) } else { None };
         match &old {

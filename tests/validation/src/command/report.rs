@@ -15,7 +15,7 @@ use serde_json::json;
 
 use super::environment::environment;
 use super::report_files::{self, command, copies, measured};
-use crate::cases::{Bench, CASES, Case, CaseError, Claim, Golden, Settled, steadiness};
+use crate::cases::{Bench, CASES, Case, CaseError, Claim, Golden, Settled, drawn, steadiness};
 use crate::failure::Failure;
 use psmrt::command::execute::interruption;
 use psmrt::command::progress::Progress;
@@ -57,10 +57,14 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), Failure> {
     let cases = chosen(&request.cases)?;
     let gpu = if request.oracle_only { None } else { Gpu::open(None).ok() };
     let interrupted = interruption();
-    let mut benches = vec![bench(None, request, json, &interrupted)];
-    if gpu.is_some() {
-        benches.push(bench(gpu.clone(), request, json, &interrupted));
-    }
+    let is_at_hand = |engine: &EngineName| match engine {
+        EngineName::Reference => true,
+        EngineName::Cpu | EngineName::CpuSingle => !request.oracle_only,
+        EngineName::Wgpu => gpu.is_some(),
+    };
+    let engines = EngineName::ALL.into_iter().filter(is_at_hand);
+    let mut benches: Vec<Bench> =
+        engines.map(|engine| bench(engine, gpu.clone(), request, json, &interrupted)).collect();
     fs::create_dir_all(&request.out).map_err(CaseError::from)?;
     let (mut sections, mut timings) = (Vec::new(), Vec::new());
     for (number, case) in cases.iter().enumerate() {
@@ -82,6 +86,10 @@ pub fn report(request: &ReportRequest, json: bool) -> Result<(), Failure> {
              cells, and a discrete element method. This page holds it to exact solutions, published \
              tables and experiments. Each claim says what was measured, what is allowed and why so much; \
              an unsteady run is never judged."
+                .to_owned(),
+            "Each case is measured on every engine at hand, and every claim is made of each. Figures show the oracle's \
+             points and, as circles round them, those of the kernel, or of the CPU engine in single precision where there \
+             is no adapter; those of the other engines are in the tables."
                 .to_owned(),
             format!("Made on {} by psmrt at {}.", provenance::today(), provenance::program()),
         ],
@@ -130,15 +138,17 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Case>, Failure> {
 
 /// Runs scenes on one engine, with a bar for each.
 fn bench(
+    engine: EngineName,
     gpu: Option<Arc<Gpu>>,
     request: &ReportRequest,
     json: bool,
     interrupted: &Arc<AtomicBool>,
 ) -> Bench {
     let interrupted = Arc::clone(interrupted);
-    let bench = Bench::new(&request.golden, gpu, |what| tell(&format!("  {what}"))).watched(
-        Box::new(move |scene| Box::new(Progress::new(scene, json, Arc::clone(&interrupted)))),
-    );
+    let bench = Bench::new(&request.golden, engine, gpu, |what| tell(&format!("  {what}")))
+        .watched(Box::new(move |scene| {
+            Box::new(Progress::new(scene, json, Arc::clone(&interrupted)))
+        }));
     if request.full { bench.at_full_scale(&request.out.join("runs")) } else { bench }
 }
 
@@ -193,7 +203,8 @@ fn fill(
     }
     let mut claims = (case.judge)(&golden, &rows)?;
     claims.extend(steady);
-    let (figures, undrawn) = drawable((case.draw)(&golden, &rows)?);
+    let shown = if case.scenes.is_empty() { rows.clone() } else { drawn(&rows) };
+    let (figures, undrawn) = drawable((case.draw)(&golden, &shown)?);
     section.data.push(measured(case, &rows, &read, request)?);
     read.extend(golden.tables_read());
     read.extend(case.literature.iter().map(|&file| file.to_owned()));

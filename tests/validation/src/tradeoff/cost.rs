@@ -46,7 +46,7 @@ pub fn measure(golden: &Path, gpu: Option<&Arc<Gpu>>) -> Result<Table, CaseError
         cells: f64,
         best: f64,
     }
-    let bench = Bench::new(golden, None, |_| {});
+    let bench = Bench::new(golden, EngineName::Reference, None, |_| {});
     let mut entries: Vec<Entry> = Vec::new();
     for (kind, scene, changes) in SCENES {
         for collision in [Preset::Srt, Preset::DHumieres] {

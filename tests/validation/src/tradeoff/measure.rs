@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 use std::time::Instant;
 
+use psmrt::engine::EngineName;
 use psmrt_reference::lattice::viscosity;
 
 use super::setting::{Literature, Setting};
@@ -32,7 +33,7 @@ pub struct Runner {
 impl Runner {
     /// With the files of the folder `golden`, and the kernel on the device `gpu` if there is one.
     pub fn new(golden: &Path, gpu: Option<Arc<Gpu>>) -> Result<Self, CaseError> {
-        let oracle = Bench::new(golden, None, |_| {});
+        let oracle = Bench::new(golden, EngineName::Reference, None, |_| {});
         let literature = Literature {
             arrays: oracle.literature("sphere_arrays", "literature.csv")?,
             shafts: oracle.literature("stokes_settling", "literature.csv")?,
@@ -40,7 +41,7 @@ impl Runner {
             random: oracle.literature("tradeoff", "random.csv")?,
             random_drag: oracle.literature("tradeoff", "random_drag.csv")?,
         };
-        let kernel = gpu.map(|gpu| Bench::new(golden, Some(gpu), |_| {}));
+        let kernel = gpu.map(|gpu| Bench::new(golden, EngineName::Wgpu, Some(gpu), |_| {}));
         Ok(Runner { oracle, kernel, literature, machine: super::machine_words() })
     }
 

@@ -2,13 +2,14 @@
 
 use crate::common::Budget;
 use crate::trials::{self, Claim};
+use psmrt::engine::EngineName;
 use psmrt_validation::cases::{Bench, CASES, Golden, steadiness};
 use std::path::Path;
 
 fn holds(name: &str, budget: &mut Budget) {
     let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../golden");
     let case = CASES.iter().find(|case| case.name == name).unwrap();
-    let mut bench = Bench::new(&golden, Some(trials::gpu().unwrap()), |_| {});
+    let mut bench = Bench::new(&golden, EngineName::Wgpu, Some(trials::gpu().unwrap()), |_| {});
     let rows = bench.measure(case).unwrap_or_else(|error| panic!("{name}: {error}"));
     budget.spend(bench.cell_updates());
     let steady = steadiness(bench.engine_name().word(), &bench.settled());

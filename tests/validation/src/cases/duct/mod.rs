@@ -3,7 +3,7 @@
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, PowerLaw};
 
-use super::found::found;
+use super::found::{found, is_double};
 use super::{Bench, Case, CaseError, Claim, Golden};
 use psmrt::engine::EngineName;
 use psmrt::scene::preset_changes;
@@ -46,7 +46,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     let unit = SI_ACCELERATION * half * half / SI_VISCOSITY;
     let si_mean = unit * exact.number("umean_mu_over_G_halfshort2")?;
     // Single precision leaves the mean velocity noise of some 1e-7.
-    let quiet = if bench.engine_name() == EngineName::Reference { 1e-9 } else { 1e-6 };
+    let quiet = if bench.engine_name().is_double() { 1e-9 } else { 1e-6 };
     let mut table = Table::new(&["engine", "rates", "cells_across", "error_of_mean"]);
     for rates in RATES {
         for cells in CELLS {
@@ -74,7 +74,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
 fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
     let mut claims = Vec::new();
     for engine in rows.values("engine")? {
-        let is_oracle = engine == EngineName::Reference.word();
+        let is_double = is_double(&engine);
         for rates in rows.values("rates")? {
             let own = rows.with(&[("engine", &engine), ("rates", &rates)])?;
             let errors = own.points("cells_across", "error_of_mean")?;
@@ -93,7 +93,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             claims.push(Claim {
                 what: format!("{engine}: error of the mean velocity, extrapolated, {rates}"),
                 measured: (ratio * fine.1 - coarse.1) / (ratio - 1.0),
-                allowed: if is_oracle { -2e-4..=2e-4 } else { -4e-4..=4e-4 },
+                allowed: if is_double { -2e-4..=2e-4 } else { -4e-4..=4e-4 },
                 why: "exact series; extrapolation leaves the next order, a few times 1/(12 x 16)^2 = 3e-5, and single \
                       precision 1e-4 of the velocity (the case poiseuille)",
             });

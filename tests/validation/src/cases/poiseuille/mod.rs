@@ -5,6 +5,7 @@ pub(super) mod figures;
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Figure, PowerLaw};
 
+use super::found::is_double;
 use super::{Bench, Case, CaseError, Claim, Golden};
 use psmrt::engine::EngineName;
 use psmrt::exact::Comparison;
@@ -144,12 +145,7 @@ fn row(
 /// claims, and above what the engine's own rounding makes, which in single precision grows with the grid
 /// as in the claim on the magic rates.
 fn quiet(engine: EngineName, cells: u32) -> f64 {
-    match engine {
-        EngineName::Reference | EngineName::Cpu => 1e-12,
-        EngineName::CpuSingle | EngineName::Wgpu => {
-            2e-6 * (f64::from(cells) / 32.0).powi(2).max(1.0)
-        }
-    }
+    if engine.is_double() { 1e-12 } else { 2e-6 * (f64::from(cells) / 32.0).powi(2).max(1.0) }
 }
 
 fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
@@ -160,7 +156,7 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         let finest = magic.numbers("cells_across")?.into_iter().fold(0.0, f64::max);
         let magic = magic.numbers("relative_l2")?;
         claims.push(wall_claim(&engine, &walls, rows)?);
-        let (most, why) = if engine == EngineName::Reference.word() {
+        let (most, why) = if is_double(&engine) {
             (
                 1e-10,
                 "exact but for round-off of 1e4 steps in double precision, and the steady state's 1e-12",
@@ -180,8 +176,8 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             allowed: 0.0..=most,
             why,
         });
-        let is_oracle = engine == EngineName::Reference.word();
-        let seen = |slip: &f64| is_oracle || *slip > KERNEL_SEES;
+        let is_double = is_double(&engine);
+        let seen = |slip: &f64| is_double || *slip > KERNEL_SEES;
         let own = by_grid(rows, &engine, Preset::DHumieres)?;
         let slips = own.numbers("slip_l2")?;
         let errors = own.points("cells_across", "relative_l2")?.into_iter().zip(&slips);
@@ -203,7 +199,7 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         claims.push(Claim {
             what: format!("{engine}: the error is the wall's known slip (largest relative difference)"),
             measured: off,
-            allowed: 0.0..=if is_oracle { 1e-5 } else { 0.05 },
+            allowed: 0.0..=if is_double { 1e-5 } else { 0.05 },
             why: "closed form by Ginzburg & d'Humieres 2003; d'Humieres' rates add errors that fall with the square of the lattice velocity (0.03 at 8 cells; ERRATA.md), and single precision 1e-4 of a slip of 1e-3",
         });
     }
@@ -259,7 +255,7 @@ fn wall_claim(engine: &str, walls: &Table, rows: &Table) -> Result<Claim, CaseEr
             "{engine}: place of the wall on 8 cells, three collisions, three tau: largest difference in cells"
         ),
         measured: off,
-        allowed: 0.0..=if engine == EngineName::Reference.word() { 1e-5 } else { 2e-3 },
+        allowed: 0.0..=if is_double(engine) { 1e-5 } else { 2e-3 },
         why: "an independent computation of six digits without inertia; d'Humieres' rates add the square of the \
               velocity, up to 0.03 cells per step here, which moves the wall by some 1e-6 cells; single precision 1e-3",
     })

@@ -66,7 +66,7 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
         "error",
     ]);
     // In single precision the mean velocity carries noise of some 1e-6.
-    let quiet = if bench.engine_name() == EngineName::Reference { 1e-6 } else { 1e-5 };
+    let quiet = if bench.engine_name().is_double() { 1e-6 } else { 1e-5 };
     let more = if bench.is_full() { &FULL_RUNS[..] } else { &[] };
     for &(lattice, fraction, cells) in RUNS.iter().chain(more) {
         let changes = [
