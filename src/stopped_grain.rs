@@ -42,14 +42,16 @@ impl fmt::Display for GrainStop {
 /// The stop in SI units if a free grain is to blame.
 pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &Coupled) -> Option<GrainStop> {
     let EngineStop::Grains(error) = stop else { return None };
-    let case = Case { scene, part: scene.free.as_ref()?, system: engine.free_grains()? };
+    let situation = Situation { scene, part: scene.free.as_ref()?, system: engine.free_grains()? };
     let (failure, cause, remedy) = match error {
-        GrainError::Sunk(sunk) => case.sunk(sunk),
-        GrainError::Thrown { grain, speed, gained, .. } => case.thrown(*grain, *speed, *gained),
+        GrainError::Sunk(sunk) => situation.sunk(sunk),
+        GrainError::Thrown { grain, speed, gained, .. } => {
+            situation.thrown(*grain, *speed, *gained)
+        }
         GrainError::NotFinite { grain, position } => {
             let finite = |vector: &Vec3| vector.iter().all(|x| x.is_finite());
             let is_fluid = engine.loads().iter().any(|l| !(finite(&l.force) && finite(&l.torque)));
-            Case::nowhere(*grain, position, is_fluid)
+            Situation::nowhere(*grain, position, is_fluid)
         }
         _ => return None,
     };
@@ -62,13 +64,13 @@ pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &Coupled) -> O
 type Words = (String, String, String);
 
 /// A scene, and its grains when the run stopped.
-struct Case<'a> {
+struct Situation<'a> {
     scene: &'a Scene,
     part: &'a FreePart,
     system: &'a GrainSystem,
 }
 
-impl Case<'_> {
+impl Situation<'_> {
     /// A grain too deep in an obstacle.
     fn sunk(&self, sunk: &Sunk) -> Words {
         let units = &self.scene.units;

@@ -1,7 +1,8 @@
 //! What a figure must satisfy before anything is drawn.
 
 use crate::error::PlotError;
-use crate::figure::{Axis, Figure, Scale};
+use crate::figure::{Axis, Figure};
+use crate::scale::Scale;
 use crate::series::Series;
 use crate::span::bad;
 

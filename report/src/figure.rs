@@ -1,15 +1,7 @@
 //! What a caller fills in: a figure, its axes and its panels.
 
+use crate::scale::Scale;
 use crate::series::Series;
-
-/// How values become positions along an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scale {
-    /// Equal differences are equal lengths.
-    Linear,
-    /// Equal ratios are equal lengths; every value must be positive.
-    Log,
-}
 
 /// One axis: what it measures, and how it is drawn.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,7 @@
 //! The lines under a figure: the caller's, and what the axes leave out.
 
-use crate::figure::{Figure, Panel, Scale};
+use crate::figure::{Figure, Panel};
+use crate::scale::Scale;
 use crate::series::Series;
 use crate::span::Span;
 

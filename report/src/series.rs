@@ -1,6 +1,6 @@
 //! One set of points and how it is drawn.
 
-use crate::figure::Scale;
+use crate::scale::Scale;
 
 /// The shape of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

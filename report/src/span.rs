@@ -1,7 +1,8 @@
 //! Values to positions along an axis.
 
 use crate::error::PlotError;
-use crate::figure::{Axis, Scale};
+use crate::figure::Axis;
+use crate::scale::Scale;
 
 /// The part of an axis that is shown, on the drawn scale: values, or their decimal logarithms.
 #[derive(Debug, Clone, Copy, PartialEq)]

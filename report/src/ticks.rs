@@ -1,7 +1,8 @@
 //! Where the ticks and grid lines of an axis go.
 
 use crate::decimal::{Decimal, labels};
-use crate::figure::{Axis, Scale};
+use crate::figure::Axis;
+use crate::scale::Scale;
 use crate::span::Span;
 
 /// The grid lines of one axis.

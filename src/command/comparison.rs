@@ -1,10 +1,11 @@
 //! The comparison with an exact solution: as text, table and picture.
 
+use std::io::Write;
 use std::path::Path;
 
+use psmrt_report::{Figure, render_svg};
 use serde_json::{Value as Json, json};
 
-use super::execute::write_figure;
 use super::{CommandError, write};
 use crate::engine::Coupled;
 use crate::exact::{Comparison, PlanePoiseuille};
@@ -62,4 +63,10 @@ pub(super) fn to_json(comparison: &Comparison) -> Json {
         "relative_max": comparison.relative_max,
         "explained_l2": comparison.explained_l2,
     })
+}
+
+/// Draws a figure into a file that is whole or not there.
+pub(super) fn write_figure(figure: &Figure, path: &Path) -> std::io::Result<()> {
+    let svg = render_svg(figure).map_err(std::io::Error::other)?;
+    atomic::write(path, |out| out.write_all(svg.as_bytes()))
 }

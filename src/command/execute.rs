@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use psmrt_report::{Figure, render_svg};
+use psmrt_report::Figure;
 use serde_json::{Value, json};
 
 use super::progress::Progress as ProgressBar;
@@ -143,16 +143,10 @@ fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
         };
         write(&folder.join(names::picture(&record.name)), |path| match figure()? {
             None => Ok(()),
-            Some(figure) => write_figure(&figure, path),
+            Some(figure) => comparison::write_figure(&figure, path),
         })?;
     }
     Ok(())
-}
-
-/// Draws a figure into a file that is whole or not there.
-pub(super) fn write_figure(figure: &Figure, path: &Path) -> std::io::Result<()> {
-    let svg = render_svg(figure).map_err(std::io::Error::other)?;
-    atomic::write(path, |out| out.write_all(svg.as_bytes()))
 }
 
 /// Says where nothing keeps a second process out of the folder of a run.

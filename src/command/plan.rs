@@ -18,7 +18,8 @@ use crate::advice::plan::options::{
 use crate::advice::plan::predict::{Outside, percent};
 use crate::advice::plan::write::text;
 use crate::advice::tradeoff::cost::mrt_over_srt;
-use crate::advice::tradeoff::model::{LEAST_ERROR, Models};
+use crate::advice::tradeoff::model::LEAST_ERROR;
+use crate::advice::tradeoff::models::Models;
 use crate::advice::tradeoff::support;
 use crate::engine::EngineName;
 use crate::kernel::adapters;

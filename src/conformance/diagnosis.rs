@@ -6,7 +6,7 @@
 use psmrt_reference::lattice::Populations;
 
 use super::array::{Answers, Array};
-use super::judge::{Judged, LIMIT, Outcome, Submission, largest_ratio};
+use super::judged::{Judged, LIMIT, Outcome, Submission, largest_ratio};
 use super::kit::Kit;
 use super::mistakes::{CATALOGUE, Entry, Mistake};
 use super::model::{GaugedAnswers, Model};

@@ -10,17 +10,13 @@ use std::path::Path;
 use thiserror::Error;
 
 use super::array::Array;
-use super::checksums;
+use super::checksums::{self, KIT_LIMIT};
 use super::given::inputs;
-use super::judge::ratio;
+use super::judged::ratio;
 use super::kit::{Kit, KitError};
 use super::manifest::{ArrayEntry, FORMAT, Manifest, candidate_schema, kit_schema};
 use super::{KIT_VERSION, npy};
 use crate::{input, quote};
-
-/// How far kits that were made on different machines may differ, in double precision's epsilon times
-/// the gauge: their mathematical libraries and instructions round differently.
-pub const KIT_LIMIT: f64 = 4.0;
 
 /// A folder that cannot be used. Its texts name the file and the remedy.
 #[derive(Debug, Error)]

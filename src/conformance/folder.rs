@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::KIT_VERSION;
 use super::array::Array;
 use super::files::{self, FilesError, json_bytes, npy_bytes, write_all};
-use super::judge::Submission;
+use super::judged::Submission;
 use super::kit::Kit;
 use super::manifest::CandidateManifest;
 use super::npy;

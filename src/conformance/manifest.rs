@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::KIT_VERSION;
 use super::array::Array;
 use super::given::inputs;
-use super::judge::LIMIT;
+use super::judged::LIMIT;
 use super::kit::{Kit, Solved};
 use super::parameters::{kind, parameters};
 use super::precision::Precision;

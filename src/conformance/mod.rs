@@ -21,6 +21,7 @@ pub mod folder;
 pub mod gauged;
 pub mod given;
 pub mod judge;
+pub mod judged;
 pub mod kit;
 pub mod manifest;
 pub mod mistakes;
@@ -40,7 +41,8 @@ pub mod task;
 
 pub use array::{Answers, Array};
 pub use candidate::Candidate;
-pub use judge::{Outcome, Verdict, judge};
+pub use judge::{Verdict, judge};
+pub use judged::Outcome;
 pub use order::DirectionOrder;
 pub use precision::Precision;
 

@@ -5,7 +5,8 @@ use std::fmt;
 use serde_json::{Value, json};
 
 use super::diagnosis::Diagnosis;
-use super::judge::{Judged, LIMIT, Outcome, Verdict};
+use super::judge::Verdict;
+use super::judged::{Judged, LIMIT, Outcome};
 use super::problem::STAGES;
 use crate::quote;
 

@@ -4,7 +4,7 @@ use psmrt_reference::directions::{C, Q};
 use psmrt_reference::moments::{NAMES, moment_matrix};
 
 use super::array::Array;
-use super::judge::{LIMIT, ratio};
+use super::judged::{LIMIT, ratio};
 use super::kit::Expected;
 use super::problem::Problem;
 use super::spec::DIRECTION;

@@ -16,13 +16,13 @@ pub fn diagnosed(
     stopped: Stopped,
     setup: &Setup,
     grains: Option<(&FreeGrains, &[usize])>,
-) -> Diagnosis {
+) -> ExplainedStop {
     let of_fluid = fluid::cause(&stopped, setup);
     let of_grains = match (of_fluid, grains) {
         (Cause::InitialState, _) | (_, None) => None,
         (_, Some((grains, solids))) => grains::cause(grains, solids, stopped.step),
     };
-    Diagnosis { stopped, cause: of_grains.unwrap_or(of_fluid) }
+    ExplainedStop { stopped, cause: of_grains.unwrap_or(of_fluid) }
 }
 
 /// Why it probably went wrong.
@@ -101,14 +101,14 @@ pub enum Cause {
 
 /// A run that was stopped, and why.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub struct Diagnosis {
+pub struct ExplainedStop {
     /// Where and when, and what is wrong there.
     pub stopped: Stopped,
     /// Why, probably.
     pub cause: Cause,
 }
 
-impl fmt::Display for Diagnosis {
+impl fmt::Display for ExplainedStop {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(out, "{}. Probable cause: {}", self.stopped, self.cause)
     }

@@ -2,21 +2,31 @@
 
 use std::io::{self, Read, Write};
 
-use psmrt_reference::directions::C;
 use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Findings, Guard};
-use psmrt_reference::lattice::{Populations, Vec3};
+use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 
 use super::{Block, BoxMeans, CellState, DeviceError, EngineName, FluidEngine, Start, StartError};
 use crate::cpu::Fluid;
 use crate::lanes::Real;
+use crate::machine::{Beginning, Spent};
 
 /// The fluid on all cores, in single or double precision.
 #[derive(Debug)]
 pub struct CpuEngine<T: Real> {
     fluid: Fluid<T>,
+    times: Option<Times>,
+}
+
+/// Where the time has gone.
+#[derive(Clone, Copy, Debug, Default)]
+struct Times {
+    /// Steps: what each cell is made of, collision, streaming, faces and loads, which one pass over memory does.
+    fluid: Spent,
+    /// Which cells the solids cover, and how much of them.
+    coverage: Spent,
 }
 
 impl<T: Real> CpuEngine<T> {
@@ -29,7 +39,7 @@ impl<T: Real> CpuEngine<T> {
             Start::State { state, is_free } => Fluid::starting_from(setup, state, is_free),
             Start::Populations(f) => Fluid::from_populations(setup, f),
         };
-        CpuEngine { fluid }
+        CpuEngine { fluid, times: None }
     }
 
     /// The fluid itself.
@@ -53,12 +63,20 @@ impl<T: Real> FluidEngine for CpuEngine<T> {
     }
 
     fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), DeviceError> {
+        let since = self.times.is_some().then(Beginning::now);
         self.fluid.place_solids(solids);
+        if let (Some(times), Some(since)) = (&mut self.times, since) {
+            times.coverage.add(since);
+        }
         Ok(())
     }
 
     fn advance(&mut self, steps: u64, with_loads: bool) -> Result<(), DeviceError> {
+        let since = self.times.is_some().then(Beginning::now);
         self.fluid.advance(steps, with_loads);
+        if let (Some(times), Some(since)) = (&mut self.times, since) {
+            times.fluid.add(since);
+        }
         Ok(())
     }
 
@@ -84,13 +102,7 @@ impl<T: Real> FluidEngine for CpuEngine<T> {
         let numbers = block.numbers(&self.setup().domain);
         let fractions = self.fluid.solid_fractions(&numbers);
         let state = |(&cell, solid_fraction): (&usize, f64)| {
-            let (mut density, mut j) = (0.0, Vec3::zeros());
-            for (a, f) in self.fluid.populations(cell).into_iter().enumerate() {
-                density += f;
-                j += f * Vec3::from(C[a].map(f64::from));
-            }
-            // u = (j + G/2)/ρ
-            CellState { density, velocity: (j + 0.5 * g) / density, solid_fraction }
+            CellState::new(&self.fluid.populations(cell), &g, solid_fraction)
         };
         Ok(numbers.iter().zip(fractions).map(state).collect())
     }
@@ -98,6 +110,15 @@ impl<T: Real> FluidEngine for CpuEngine<T> {
     fn populations(&self, block: Block) -> Result<Vec<Populations>, DeviceError> {
         let cells = block.numbers(&self.setup().domain);
         Ok(cells.into_iter().map(|cell| self.fluid.populations(cell)).collect())
+    }
+
+    fn keep_times(&mut self) {
+        self.times = Some(Times::default());
+    }
+
+    fn times(&self) -> Vec<(&'static str, Spent)> {
+        let Some(Times { fluid, coverage }) = self.times else { return Vec::new() };
+        vec![("fluid", fluid), ("coverage", coverage)]
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {

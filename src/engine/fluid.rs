@@ -5,6 +5,7 @@
 use std::fmt;
 use std::io::{self, Read, Write};
 
+use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3};
@@ -23,6 +24,16 @@ pub struct CellState {
     pub velocity: Vec3,
     /// How much of the cell grains cover, 0 to 1.
     pub solid_fraction: f64,
+}
+
+impl CellState {
+    /// That of populations before a collision, with the body force `g` per volume, in a cell of this solid fraction.
+    pub(super) fn new(f: &Populations, g: &Vec3, solid_fraction: f64) -> Self {
+        let density: f64 = f.iter().sum();
+        let j: Vec3 = (0..Q).map(|a| f[a] * Vec3::from(C[a].map(f64::from))).sum();
+        // u = (j + G/2)/ρ
+        CellState { density, velocity: (j + 0.5 * g) / density, solid_fraction }
+    }
 }
 
 /// Means and extremes over the domain, lattice units.

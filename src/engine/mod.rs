@@ -28,7 +28,7 @@ use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::setup::SetupError;
 use thiserror::Error;
 
-use crate::diagnosis::Diagnosis;
+use crate::diagnosis::ExplainedStop;
 
 pub use block::Block;
 pub use coupled::{Coupled, Profile};
@@ -85,7 +85,7 @@ pub enum StartError {
 pub enum EngineStop {
     /// The guard of the fluid has stopped it.
     #[error(transparent)]
-    Broken(#[from] Box<Diagnosis>),
+    Broken(#[from] Box<ExplainedStop>),
     /// The free grains cannot be moved.
     #[error(transparent)]
     Grains(#[from] GrainError),

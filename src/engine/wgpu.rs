@@ -3,7 +3,6 @@
 use std::io::{self, Read, Write};
 use std::sync::Arc;
 
-use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3};
@@ -102,14 +101,7 @@ impl FluidEngine for KernelEngine {
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError> {
         let g = self.kernel.setup().body_force.unwrap_or_else(Vec3::zeros);
         let found = self.kernel.states(&block.numbers(&self.setup().domain))?;
-        let state = |(f, solid_fraction): ([f64; Q], f64)| {
-            let density: f64 = f.iter().sum();
-            let j: Vec3 = (0..Q).map(|a| f[a] * Vec3::from(C[a].map(f64::from))).sum();
-            // u = (j + G/2)/ρ
-            let velocity = (j + 0.5 * g) / density;
-            CellState { density, velocity, solid_fraction }
-        };
-        Ok(found.into_iter().map(state).collect())
+        Ok(found.iter().map(|(f, solid_fraction)| CellState::new(f, &g, *solid_fraction)).collect())
     }
 
     fn populations(&self, block: Block) -> Result<Vec<Populations>, DeviceError> {

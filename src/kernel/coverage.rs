@@ -1,6 +1,6 @@
 //! Which cells the solids cover, in double precision: what the device is told where none of them can move
 //! (where they can, it finds out by itself, `movable.rs`), and whose motion covered cells start with. What is seen
-//! from outside is the weight that the device collides with (`sight.rs`).
+//! from outside is the weight that the device collides with (`observed.rs`).
 
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::Domain;

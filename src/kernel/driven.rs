@@ -8,28 +8,24 @@
 //! (A condition on a uniform would do as well on hardware; Mesa's lavapipe takes it for a reason to translate the shader anew
 //! at each dispatch.)
 
-use std::cell::OnceCell;
-use std::io;
-
-use psmrt_reference::drive::{Drive, DriveError, FaceValue};
+use psmrt_reference::drive::FaceValue;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use wgpu::BufferUsages;
 
 use super::device::Gpu;
 use super::error::KernelError;
-use super::fluid::Kernel;
 use super::numbers::single;
 
 /// Velocity and density less 1 of each face.
-type FaceRows = [[f32; 4]; 6];
+pub(super) type FaceRows = [[f32; 4]; 6];
 
 /// The drive on the device.
 #[derive(Debug)]
 pub(super) struct Driven {
     pub(super) buffer: wgpu::Buffer,
     /// The face values of the step that was made last.
-    entered: FaceRows,
+    pub(super) entered: FaceRows,
     /// Whether any wall or inlet has had a velocity.
     pub(super) walls_move: bool,
 }
@@ -45,7 +41,7 @@ impl Driven {
     }
 
     /// Uploads the body force of now and the face values that populations come in with next.
-    fn write(&self, gpu: &Gpu, setup: &Setup) {
+    pub(super) fn write(&self, gpu: &Gpu, setup: &Setup) {
         let g = setup.body_force.unwrap_or_else(Vec3::zeros).map(single);
         let mut rows = vec![[g.x, g.y, g.z, 0.0]];
         rows.extend(self.entered);
@@ -53,61 +49,8 @@ impl Driven {
     }
 }
 
-impl Kernel {
-    /// Lets `drive` drive the fluid from now on. Errors, and changes nothing, as [`Setup::set_drive`].
-    pub fn set_drive(&mut self, drive: &Drive) -> Result<(), DriveError> {
-        self.setup.set_drive(drive)?;
-        self.let_walls_move(&face_rows(&self.setup));
-        self.driven.write(&self.gpu, &self.setup);
-        Ok(())
-    }
-
-    /// Has shaders with face velocities in them made if one of these is the first.
-    fn let_walls_move(&mut self, rows: &FaceRows) {
-        if !self.driven.walls_move && any_moves(rows) {
-            self.driven.walls_move = true;
-            for pipeline in [
-                &mut self.step_listed,
-                &mut self.step_listed_with_loads,
-                &mut self.observe,
-                &mut self.summary,
-            ] {
-                *pipeline = OnceCell::new();
-            }
-        }
-    }
-
-    /// Whether the step made last had the face values of now.
-    pub(super) fn has_entered(&self) -> bool {
-        self.driven.entered == face_rows(&self.setup)
-    }
-
-    /// After a step with the drive of now.
-    pub(super) fn enter(&mut self) {
-        if !self.has_entered() {
-            self.driven.entered = face_rows(&self.setup);
-            self.driven.write(&self.gpu, &self.setup);
-        }
-    }
-
-    /// The bits of the face values of the step made last, to be saved.
-    pub(super) fn entered(&self) -> &[u8] {
-        bytemuck::cast_slice(&self.driven.entered)
-    }
-
-    /// Goes on from what [`Self::entered`] gave, which `row` puts where it is told.
-    pub(super) fn restore_entered(
-        &mut self,
-        row: impl FnOnce(&mut [u8]) -> io::Result<()>,
-    ) -> io::Result<()> {
-        row(bytemuck::cast_slice_mut(&mut self.driven.entered))?;
-        self.let_walls_move(&self.driven.entered.clone());
-        self.driven.write(&self.gpu, &self.setup);
-        Ok(())
-    }
-}
-
-fn face_rows(setup: &Setup) -> FaceRows {
+/// What the faces of a set-up hold.
+pub(super) fn face_rows(setup: &Setup) -> FaceRows {
     let mut rows = [[0.0; 4]; 6];
     for (row, value) in rows.iter_mut().zip(setup.drive().faces.as_flattened()) {
         *row = match value {
@@ -129,6 +72,7 @@ pub(super) fn has_densities(setup: &Setup) -> bool {
     setup.drive().faces.as_flattened().iter().any(|value| matches!(value, FaceValue::Density(_)))
 }
 
-fn any_moves(rows: &FaceRows) -> bool {
+/// Whether a wall or an inlet has a velocity.
+pub(super) fn any_moves(rows: &FaceRows) -> bool {
     rows.iter().any(|row| row[..3] != [0.0; 3])
 }

@@ -1,5 +1,5 @@
 //! The fluid of one box on a device: what it is made of and how it starts. Its steps are in `steps.rs`,
-//! what can be seen of it in `sight.rs`, its saved state in `state.rs`.
+//! what can be seen of it in `observed.rs`, its saved state in `state.rs`.
 
 use std::cell::{OnceCell, RefCell};
 use std::collections::HashSet;
@@ -9,7 +9,7 @@ use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::Solid;
-use wgpu::{BufferUsages, TextureFormat};
+use wgpu::BufferUsages;
 
 use super::buffers::Growing;
 use super::compose::{Recipe, SolidData, Work};
@@ -115,10 +115,7 @@ impl Kernel {
         let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids, with_loads: false })?;
         let face_cells = recipe.face_cells();
         let copy = || {
-            let make = |binding| {
-                let directions = layout.directions(binding);
-                Field::new(gpu, layout, "populations", directions, TextureFormat::R32Float)
-            };
+            let make = |binding| Field::new(gpu, layout, "populations", layout.directions(binding));
             (0..layout.bindings()).map(make).collect::<Result<Vec<_>, _>>()
         };
         let mut kernel = Kernel {

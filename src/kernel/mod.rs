@@ -3,17 +3,17 @@
 //! | file | what it does |
 //! |---|---|
 //! | `device.rs`, `quiet.rs` | adapters, and the device opened on one |
-//! | `layout.rs`, `field.rs`, `table.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
+//! | `layout.rs`, `field.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `bindings.rs` | the number of every binding |
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
-//! | `driven.rs`, `wgsl/drive.wgsl` | the body force and the face values of a step |
+//! | `driven.rs`, `driving.rs`, `wgsl/drive.wgsl` | the body force and the face values of a step |
 //! | `streaming.rs` | streaming and faces, as WGSL |
 //! | `solids.rs`, `touches.rs` | the solids on the device |
 //! | `movable.rs`, `covering.rs`, `wgsl/{cover,fraction,resolve}.wgsl` | what movable solids cover, found on the device |
-//! | `coverage.rs`, `sphere.rs` | the same in double precision, where none can move and for the velocities that covered cells start with |
+//! | `coverage.rs` | the same in double precision, where none can move and for the velocities that covered cells start with |
 //! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
-//! | `fluid.rs`, `steps.rs`, `sight.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
+//! | `fluid.rs`, `steps.rs`, `observed.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
 //!
 //! The populations are kept as they are after a collision, less their weights, direction by direction,
 //! in two copies. A step reads one copy and writes the other: 152 bytes per cell update. What is seen
@@ -35,6 +35,7 @@ mod coverage;
 mod covering;
 mod device;
 mod driven;
+mod driving;
 mod error;
 mod field;
 mod fluid;
@@ -43,15 +44,14 @@ mod layout;
 mod memory;
 mod movable;
 mod numbers;
+mod observed;
 mod outgoing;
 mod pipeline;
 mod quiet;
-mod sight;
 mod solids;
 mod state;
 mod steps;
 mod streaming;
-mod table;
 mod touches;
 mod watch;
 
@@ -59,5 +59,5 @@ pub use device::{AdapterFacts, Gpu, adapters};
 pub use error::KernelError;
 pub use fluid::Kernel;
 pub use fractions::solid_fractions_on_device;
-pub use sight::Summary;
+pub use observed::Summary;
 pub use watch::KernelTimes;

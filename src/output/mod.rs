@@ -8,6 +8,7 @@ pub mod grain_list;
 pub mod grain_means;
 pub mod grain_plots;
 pub mod hashed;
+pub mod loads;
 pub mod lock;
 pub mod npy;
 pub mod plot;

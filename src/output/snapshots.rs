@@ -130,7 +130,7 @@ fn wrapped(domain: &Domain, si_place: &[f64], si_dx: f64) -> [f64; 3] {
 }
 
 fn grains(scene: &Scene, engine: &Coupled, path: &Path) -> io::Result<()> {
-    let rows = super::records::load_rows(scene, engine);
+    let rows = super::loads::load_rows(scene, engine);
     let domain = &scene.setup.domain;
     let places = rows.iter().flat_map(|row| wrapped(domain, &row[1..4], scene.units.si_dx));
     let columns = |range: std::ops::Range<usize>| {

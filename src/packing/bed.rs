@@ -55,7 +55,7 @@ impl SettledBed {
     /// Makes the bed. Errors if a value makes no sense or the bed does not come to rest.
     pub fn make(&self) -> Result<Packing, PackingError> {
         self.check()?;
-        let mut system = self.column()?;
+        let mut system = self.released()?;
         let unit_time = self.mean_diameter().sqrt();
         let substep = system.shortest_time() / 15.0;
         let weights: f64 = system.grains().iter().map(|grain| grain.mass).sum();
@@ -82,8 +82,9 @@ impl SettledBed {
         Err(PackingError::Restless { energy, substeps })
     }
 
-    /// The grains one above the other, each at a random place in a cell of its own.
-    fn column(&self) -> Result<GrainSystem, PackingError> {
+    /// Where the grains fall from: one above the other, each at a random place in a cell of its own, so that none touches
+    /// another, a wall or the floor.
+    pub fn column(&self) -> Vec<Grain> {
         let mut random = SplitMix64::new(self.seed);
         let side = 2.1 * self.largest_radius();
         let along = self.lengths.map(|length| (length / side).floor().max(1.0));
@@ -103,8 +104,12 @@ impl SettledBed {
             let within = room.map(|room| radius + room * random.unit());
             Grain::sphere(corner(place) + within, radius, 1.0)
         };
-        let grains: Vec<Grain> = self.radii.iter().zip(&places).map(grain).collect();
+        self.radii.iter().zip(&places).map(grain).collect()
+    }
 
+    /// The column under its own weight, above the floor.
+    fn released(&self) -> Result<GrainSystem, PackingError> {
+        let grains = self.column();
         let mass = grains.iter().map(|grain| grain.mass).sum::<f64>() / grains.len() as f64;
         let stiffness = mass * (1.0 + self.layers()) / (PRESSED * self.mean_diameter());
         let law = ContactLaw::from_stiffness_and_restitution(stiffness, 0.5, 0.5 * mass)?

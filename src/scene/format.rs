@@ -12,9 +12,7 @@ use super::format_grains::{GrainsSection, SolidSection};
 use super::format_run::{
     CheckpointSection, CompareSection, EngineSection, RecordSection, StopSection,
 };
-
-/// Three components x, y, z.
-pub type Triple = [f64; 3];
+use super::triple::Triple;
 
 /// A scene: one flow, with what to record and when to stop. All values in SI units.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -58,7 +56,7 @@ pub struct SceneFile {
     pub stop: StopSection,
     /// When to save the state of the run, to go on from after an interruption.
     pub checkpoint: Option<CheckpointSection>,
-    /// What computes the scene: the reference engine or a GPU.
+    /// What computes the scene: the oracle, the CPU engine or a GPU.
     pub engine: Option<EngineSection>,
     /// An exact solution to compare with at the end.
     pub compare: Option<CompareSection>,

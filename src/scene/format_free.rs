@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::format::Triple;
+use super::triple::Triple;
 
 /// Contacts of free grains with each other, with fixed and prescribed grains, and with the faces of the domain: a
 /// spring and a dashpot (Voigt) with Coulomb friction. Give the normal spring by `stiffness` or by `duration`, the

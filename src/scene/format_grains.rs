@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::format::Triple;
+use super::triple::Triple;
 
 /// A grain, or several made by one rule. Each grain is a sphere.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

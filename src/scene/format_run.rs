@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::format::Triple;
+use super::triple::Triple;
 
 /// Something to record. At most one of `every` and `every_steps`; without either it is recorded
 /// once, at the end.

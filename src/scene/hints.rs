@@ -121,7 +121,7 @@ fn places_of(name: &str, here: &str) -> Vec<String> {
     while let Some((path, node)) = sections.get(next).cloned() {
         next += 1;
         for (key, inner) in node["properties"].as_object().into_iter().flatten() {
-            let full = super::shape::join(&path, key);
+            let full = join(&path, key);
             let indexed = here.split('[').next() == Some(path.trim_end_matches("[0]"));
             if key == name && (!indexed || path.is_empty()) {
                 found.push(full.clone());
@@ -205,4 +205,9 @@ pub(super) fn key_for(found: &Item, node: &Node) -> Option<(String, String)> {
         None if fitting.len() == 1 => fitting.pop(),
         None => None,
     }
+}
+
+/// The full name of a key.
+pub(super) fn join(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }

@@ -8,7 +8,6 @@
 //! | `check/` | values that make sense, in lattice units |
 //! | `shape.rs` | sections, keys and types as the schema has them |
 //! | `hints.rs`, `synonyms.rs` | what to write instead |
-//! | `units.rs` | SI units and lattice units |
 //! | `trouble.rs` | the one message about what is wrong |
 //! | `schema.rs` | the JSON schema |
 
@@ -26,6 +25,7 @@ pub mod schema;
 mod shape;
 mod source;
 mod synonyms;
+mod triple;
 pub mod trouble;
 
 use std::path::Path;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use serde_json::Value as Node;
 use toml_edit::{Item, TableLike, Value};
 
-use super::hints;
+use super::hints::{self, join};
 use super::schema::{Kind, describe, schema};
 use crate::quote::{quoted, shown};
 
@@ -213,10 +213,6 @@ fn meaning(key: &str, wanted: &Kind) -> String {
         Some(description) => format!("`{}` is: {description}", last(key)),
         None => format!("give a {}", wanted.words()),
     }
-}
-
-pub(super) fn join(path: &str, name: &str) -> String {
-    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
 }
 
 fn last(key: &str) -> &str {

@@ -99,7 +99,7 @@ const WORDS: [(&str, &[&str]); 64] = [
     ("vtk", &["vti", "fields"]),
     ("numpy", &["npy"]),
     // Engines.
-    ("cpu", &["reference"]),
+    ("native", &["cpu"]),
     ("oracle", &["reference"]),
     ("gpu", &["wgpu"]),
     ("cuda", &["wgpu"]),

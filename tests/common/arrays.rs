@@ -123,11 +123,11 @@ impl Array {
         // The drag stops the fluid in V/(n 6π ν a K) steps: the slowest time of the array. With three
         // windows of half of it below `tolerance`, about half of `tolerance` is left to go.
         let window = (0.5 * volume / (stokes * k_exact)).ceil() as u64 + 8;
-        let (mut last, mut quiet) = (0.0, 0);
-        while quiet < 3 {
+        let (mut last, mut steady) = (0.0, 0);
+        while steady < 3 {
             run(&mut solver, window)?;
             let now = flux(&solver);
-            quiet = if (now - last).abs() <= tolerance * now.abs() { quiet + 1 } else { 0 };
+            steady = if (now - last).abs() <= tolerance * now.abs() { steady + 1 } else { 0 };
             last = now;
         }
 

@@ -61,11 +61,11 @@ impl Budget {
         observe: impl Fn(&Solver) -> f64,
     ) -> f64 {
         let mut last = observe(solver);
-        let mut quiet = 0;
-        while quiet < 3 {
+        let mut steady = 0;
+        while steady < 3 {
             self.run(solver, window);
             let now = observe(solver);
-            quiet = if (now - last).abs() <= tolerance * now.abs() { quiet + 1 } else { 0 };
+            steady = if (now - last).abs() <= tolerance * now.abs() { steady + 1 } else { 0 };
             last = now;
         }
         last

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
 
-use psmrt::conformance::judge::{Submission, judge_submission};
+use psmrt::conformance::judge::judge_submission;
+use psmrt::conformance::judged::Submission;
 use psmrt::conformance::kit::Kit;
 use psmrt::conformance::mistakes::CATALOGUE;
 use psmrt::conformance::{Candidate, Verdict};

@@ -3,7 +3,8 @@
 
 use crate::common::Budget;
 use crate::conformance::{judged, kit};
-use psmrt::conformance::judge::{Judged, LIMIT, Submission, judge_submission};
+use psmrt::conformance::judge::judge_submission;
+use psmrt::conformance::judged::{Judged, LIMIT, Submission};
 use psmrt::conformance::kit::Kit;
 use psmrt::conformance::mistakes::CATALOGUE;
 use psmrt::conformance::model::Model;

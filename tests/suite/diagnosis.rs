@@ -4,7 +4,7 @@ use crate::common;
 
 use common::Budget;
 use common::collisions::dhumieres;
-use psmrt::diagnosis::{Cause, Diagnosis, diagnosed};
+use psmrt::diagnosis::{Cause, ExplainedStop, diagnosed};
 use psmrt_reference::collision::{Collision, CollisionOperator, MrtOperator};
 use psmrt_reference::coupling::{
     CoupledSolver, CoupledStop, CouplingSettings, FreeGrains, Gravity,
@@ -33,20 +33,20 @@ fn duct(length: usize, x: [Face; 2], tau: f64) -> Setup {
 }
 
 /// Runs until the guard stops it: after a few hundred steps of tens of cells.
-fn stop(mut solver: Solver, steps: u64) -> Diagnosis {
+fn stop(mut solver: Solver, steps: u64) -> ExplainedStop {
     let stopped = solver.run(steps).expect_err("this set-up must not survive");
     diagnosed(stopped, solver.setup(), None)
 }
 
 /// The same of at most 2,000 steps of 600 cells; the message says what a user needs.
-fn stopped_with(solver: Solver, remedy: &str) -> Diagnosis {
+fn stopped_with(solver: Solver, remedy: &str) -> ExplainedStop {
     let diagnosis = stop(solver, 2000);
     check_words(&diagnosis, &["step", "cell", "Probable cause", remedy], &[]);
     diagnosis
 }
 
 /// Errors unless the message holds all of `due` and none of `wrong`.
-fn check_words(stopped: &Diagnosis, due: &[&str], wrong: &[&str]) {
+fn check_words(stopped: &ExplainedStop, due: &[&str], wrong: &[&str]) {
     let message = stopped.to_string();
     for part in due {
         assert!(message.contains(part), "no {part:?} in: {message}");
@@ -90,7 +90,7 @@ fn inlet_that_pushes_into_a_tight_plug_is_told_of_the_resistance_and_not_of_soun
 }
 
 /// A free grain in a periodic box of 8 cells, under gravity along z; runs until it is stopped.
-fn fall(budget: &mut Budget, density: f64, gravity: Gravity, tau: f64) -> Diagnosis {
+fn fall(budget: &mut Budget, density: f64, gravity: Gravity, tau: f64) -> ExplainedStop {
     let domain = Domain::new([8; 3], Faces::PERIODIC).unwrap();
     let mut setup = Setup::fluid(domain, Collision::Srt { tau }).with_solids(SolidPhase::default());
     if let Gravity::OnFluidToo { acceleration } = gravity {

@@ -151,6 +151,82 @@ fn a_bed_settles_between_walls_or_periodic_sides() {
     }
 }
 
+/// A bed of grains of two sizes, with all lengths so many times as long.
+fn mixed_bed(sides: BedSides, scale: f64) -> SettledBed {
+    let radii = (0..90).map(|i| if i % 3 == 0 { 0.6 * scale } else { 0.45 * scale }).collect();
+    SettledBed { lengths: [4.5 * scale, 5.5 * scale], sides, radii, friction: 0.3, seed: 5 }
+}
+
+#[test]
+fn grains_of_a_bed_fall_from_places_in_which_none_touches_anything() {
+    for sides in [BedSides::Walls, BedSides::Periodic] {
+        let bed = mixed_bed(sides, 1.0);
+        let grains = bed.column();
+        assert_eq!(grains.len(), 90, "a place for each grain");
+        let lengths = match sides {
+            BedSides::Walls => [None; 3],
+            BedSides::Periodic => [Some(4.5), Some(5.5), None],
+        };
+        let domain = PeriodicBox { lengths };
+        for (number, grain) in grains.iter().enumerate() {
+            let (at, r) = (grain.position, grain.radius);
+            assert_eq!(r, bed.radii[number], "grain {number} has the radius that was asked for");
+            for (axis, length) in [(0, 4.5), (1, 5.5)] {
+                assert!(
+                    at[axis] >= r && at[axis] <= length - r,
+                    "grain {number} of radius {r} at {at:?} reaches out of the sides"
+                );
+            }
+            assert!(at.z >= r, "grain {number} of radius {r} at {at:?} lies in the floor");
+            for other in &grains[number + 1..] {
+                let apart = nearest(&domain, other.position - at).norm();
+                assert!(
+                    apart >= r + other.radius,
+                    "grains at {at:?} and {:?} touch",
+                    other.position
+                );
+            }
+        }
+        // Cells of 1.26 (2.1 times the largest radius) and a little more: 3 x 4 in a layer, 8 layers.
+        let top = grains.iter().map(|grain| grain.position.z).fold(0.0, f64::max);
+        assert!((7.0 * 1.26..8.0 * 1.26).contains(&top), "the uppermost grain is at {top}");
+        // Not on a lattice, and not sorted by size: large grains, first in the list, are everywhere.
+        let heights =
+            grains.iter().filter(|grain| grain.radius == 0.6).map(|grain| grain.position.z);
+        let mean = heights.sum::<f64>() / 30.0;
+        // Why: the mean of 30 heights spread evenly over 10 is off by 10/sqrt(12 * 30) = 0.5; three times that.
+        assert!((mean - 0.5 * 8.0 * 1.26).abs() < 1.6, "mean height of the large grains: {mean}");
+        let on_lattice = |grain: &&Grain| {
+            (grain.position.x / 1.5).fract() == (grains[0].position.x / 1.5).fract()
+        };
+        assert!(
+            grains.iter().filter(on_lattice).count() < 5,
+            "places are random within their cells"
+        );
+    }
+}
+
+#[test]
+fn a_bed_has_no_scale_of_its_own() {
+    // Four times all lengths is twice all times, 64 times all masses and 256 times all forces: powers of two, so
+    // that the same numbers come out.
+    for sides in [BedSides::Walls, BedSides::Periodic] {
+        let [one, four] = [1.0, 4.0].map(|scale| mixed_bed(sides, scale).make().unwrap());
+        for (number, (small, large)) in one.grains.iter().zip(&four.grains).enumerate() {
+            let off = (4.0 * small.position - large.position).norm();
+            assert!(
+                off <= 1e-9,
+                "{sides:?}: grain {number} at {:?} in the bed, at {:?} in the one of four times the size",
+                small.position,
+                large.position
+            );
+        }
+        let (report, scaled) = (one.report, four.report);
+        assert!((report.porosity - scaled.porosity).abs() < 1e-12, "{report:?}, {scaled:?}");
+        assert_eq!(report.coordination, scaled.coordination);
+    }
+}
+
 #[test]
 fn porosity_of_a_bed_s_middle_is_that_of_its_slices() {
     // By counting points in the middle half, instead of volumes of slices of spheres.
@@ -190,6 +266,7 @@ fn packings_that_cannot_be_are_refused() {
     assert!(dense.contains("is denser than spheres can be packed"), "{dense}");
     assert!(message(vec![], 5.0).contains("number of grains = 0 must be at least 1"));
     assert!(message(vec![0.5, -0.5], 5.0).contains("radius = -0.5 must be positive"));
+    assert!(message(vec![0.5, 0.0], 5.0).contains("radius = 0 must be positive"));
     let narrow = message(vec![0.5; 1], 0.99);
     assert!(narrow.contains("a grain would touch its own image"), "{narrow}");
     // Denser than random packings get: porosity 0.33.

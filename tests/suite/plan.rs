@@ -6,7 +6,7 @@ use psmrt::advice::estimate::warnings;
 use psmrt::advice::plan::facts::{Facts, Limit};
 use psmrt::advice::plan::options::{PlanOption, Speed, cheapest, options};
 use psmrt::advice::plan::write::text;
-use psmrt::advice::tradeoff::model::Models;
+use psmrt::advice::tradeoff::models::Models;
 use psmrt::engine::{EngineName, open};
 use psmrt::scene::Scene;
 use psmrt_reference::collision::Preset;

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::common::Budget;
 use psmrt::advice::estimate::warnings;
 use psmrt::engine::{EngineName, open};
-use psmrt::output::records::load_rows;
+use psmrt::output::loads::load_rows;
 use psmrt::scene::Scene;
 use psmrt_reference::coupling::Gravity;
 use psmrt_reference::lattice::Vec3;

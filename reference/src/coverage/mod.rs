@@ -3,9 +3,11 @@
 //! `sphere` and `sampled` give the solid fraction of one sphere in one cell, [`Solid::covered`] the cells that one solid
 //! covers; this file lists them for all solids.
 
+pub(crate) mod rule;
 mod sampled;
 mod sphere;
 
+pub use rule::CoverageRule;
 pub use sampled::sampled_fraction;
 pub use sphere::exact_fraction;
 
@@ -14,29 +16,6 @@ use crate::lattice::Vec3;
 use crate::shapes::Covered;
 use crate::solids::Solid;
 use rayon::prelude::*;
-
-/// How the solid fraction of a sphere in a cell is found.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum CoverageRule {
-    /// Exactly, in closed form.
-    #[default]
-    Exact,
-    /// By `n × n × n` sample points.
-    Sampled {
-        /// Points along each axis, at least 1.
-        n: usize,
-    },
-}
-
-impl CoverageRule {
-    /// Solid fraction of a sphere whose centre lies at `centre` from the centre of the cell.
-    pub fn fraction(self, centre: &Vec3, radius: f64) -> f64 {
-        match self {
-            CoverageRule::Exact => exact_fraction(centre, radius),
-            CoverageRule::Sampled { n } => sampled_fraction(centre, radius, n),
-        }
-    }
-}
 
 /// The part of one cell that one solid covers.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -30,4 +30,5 @@ mod parallel;
 pub mod plane;
 pub mod random;
 pub mod setup;
+pub mod sunk;
 pub mod system;

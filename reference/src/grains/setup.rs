@@ -1,11 +1,11 @@
 //! What a set of grains is set up with, and the checks that it makes sense.
 
 use crate::grains::grain::Grain;
-use crate::grains::hold::Sunk;
 use crate::grains::law::{ContactLaw, LawError};
 use crate::grains::lubrication::{Lubrication, LubricationError};
 use crate::grains::motion::{SubstepError, Substeps};
 use crate::grains::plane::{Plane, PlaneError};
+use crate::grains::sunk::Sunk;
 use crate::lattice::Vec3;
 use thiserror::Error;
 

@@ -4,7 +4,7 @@
 mod cells;
 mod sphere;
 
-use crate::coverage::CoverageRule;
+use crate::coverage::rule::CoverageRule;
 use crate::domain::Domain;
 use crate::lattice::Vec3;
 use crate::solids::{Shape, Solid};

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::Covered;
-use crate::coverage::CoverageRule;
+use crate::coverage::rule::CoverageRule;
 use crate::domain::Domain;
 use crate::lattice::Vec3;
 

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::Warning;
+use super::warning::Warning;
 use crate::engine::EngineName;
 use crate::machine::free_bytes;
 use crate::output::records::columns;

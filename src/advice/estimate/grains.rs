@@ -8,7 +8,7 @@ use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::motion::Substeps;
 use psmrt_reference::lattice::{Vec3, viscosity};
 
-use super::{Number, number};
+use super::number::{Number, number};
 use crate::scene::check::hardness::{Burden, Overlaps};
 use crate::scene::{FreePart, Scene};
 

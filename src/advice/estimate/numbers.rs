@@ -3,9 +3,11 @@
 use psmrt_reference::domain::Face;
 
 use super::bed::bed;
-use super::spheres::solid_fraction;
+use super::number::{Number, number};
+use super::spheres::{diameters, solid_fraction};
+use super::velocity::si_velocity;
 use super::warnings::accuracy::{outlook, subject};
-use super::{Number, diameters, grains, memory, number, si_velocity};
+use super::{grains, memory};
 use crate::advice::plan::predict::Outside;
 use crate::engine::EngineName;
 use crate::scene::Scene;

@@ -31,3 +31,11 @@ pub(crate) fn solid_fraction(scene: &Scene) -> f64 {
     let volume: f64 = spheres(scene).iter().map(|&(solid, _, share)| share * solid.volume()).sum();
     volume / scene.setup.domain.cell_count() as f64
 }
+
+/// Diameters in cells, smallest and largest, if there are grains.
+pub(crate) fn diameters(scene: &Scene) -> Option<(f64, f64)> {
+    let solids = &scene.setup.solid_phase.as_ref()?.solids;
+    let all = solids.iter().map(Solid::diameter);
+    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(l, h), d| (l.min(d), h.max(d)));
+    (high > 0.0).then_some((low, high))
+}

@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
 
-use super::spheres::spheres;
-use super::{diameters, grains};
-use crate::advice::plan::facts::{Drag, drag};
+use super::grains;
+use super::spheres::{diameters, spheres};
+use crate::advice::plan::drag::{Drag, drag};
 use crate::scene::Scene;
 
 /// The largest velocity that the scene names or that its forces will drive, m/s, and where it comes from.

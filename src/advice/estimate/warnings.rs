@@ -14,7 +14,7 @@ mod scales;
 pub(crate) mod stability;
 mod start;
 
-use super::Warning;
+use super::warning::Warning;
 use crate::scene::Scene;
 
 /// The topics, in the order in which they are told.
@@ -36,9 +36,4 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
 /// All that looks risky.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     TOPICS.iter().flat_map(|topic| topic(scene)).collect()
-}
-
-/// A warning.
-fn warning(reason: impl Into<String>, remedy: impl Into<String>) -> Warning {
-    Warning { reason: reason.into(), remedy: remedy.into() }
 }

@@ -7,6 +7,7 @@
 //! | `options.rs` | all ways within the evidence, with predicted error and time |
 //! | `write.rs` | the scene with a way chosen |
 
+pub(crate) mod drag;
 pub mod duct;
 pub mod facts;
 pub mod options;

@@ -5,7 +5,7 @@ use psmrt_reference::lattice::viscosity;
 
 use super::facts::{Facts, Limit};
 use super::predict::{Outside, Parameters, WALL_CELLS, is_heavy_enough, predict};
-use crate::advice::tradeoff::model::Models;
+use crate::advice::tradeoff::models::Models;
 
 /// Relaxation times that are tried.
 const TAUS: [f64; 13] = [0.51, 0.52, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0];

@@ -3,7 +3,7 @@
 
 use super::facts::{Facts, Limit};
 use crate::advice::stability::limits;
-use crate::advice::tradeoff::model::Models;
+use crate::advice::tradeoff::models::Models;
 use psmrt_reference::collision::Preset;
 
 /// Between walls the evidence reaches from 6 to 32 cells; finer grids follow the closed form.

@@ -4,6 +4,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `model.rs`, `model_eps.rs`, `model_low.rs` | error models |
+//! | `models.rs` | all of them together |
 //! | `runs.rs` | runs with known answers |
 //! | `cost.rs` | what a collision costs |
 //! | `support.rs` | what stands behind a prediction |
@@ -12,5 +13,6 @@ pub mod cost;
 pub mod model;
 pub mod model_eps;
 pub mod model_low;
+pub mod models;
 pub mod runs;
 pub mod support;

@@ -1,7 +1,8 @@
 //! What stands behind a prediction, in words.
 
-use super::model::{LEAST_TAU, Models, SolidMethod};
+use super::model::{LEAST_TAU, SolidMethod};
 use super::model_eps::EpsModel;
+use super::models::Models;
 use super::runs::{GrainPoint, committed};
 use crate::advice::coefficients::numbers;
 use crate::table::TableError;

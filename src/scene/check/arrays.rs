@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use psmrt_reference::domain::Domain;
 
 use super::Trouble;
-use super::grains::Ball;
+use super::listed::Ball;
 use super::numbers::{count, needed, positive};
 use crate::scene::format_grains::{GrainsSection, LatticeName};
 use crate::units::Units;

@@ -8,10 +8,12 @@ use psmrt_reference::grains::law::{ContactLaw, Friction, LawError, Rolling};
 use psmrt_reference::grains::motion::Substeps;
 
 use super::Trouble;
-use super::effort::MOST_SUBSTEPS;
 use super::numbers::{absent, coefficient, positive};
 use crate::scene::format_free::ContactSection;
 use crate::units::Units;
+
+/// More sub-steps in a time step are refused: the contacts would last less than a hundredth of it.
+pub(super) const MOST_SUBSTEPS: u32 = 2500;
 
 /// Longest contact duration in time steps where a scene says nothing. The load of the fluid is held during a
 /// step and the inertia of the fluid inside comes a step late: in a contact of several steps the fluid takes

@@ -3,11 +3,9 @@
 use psmrt_reference::grains::motion::{FEWEST_SUBSTEPS_PER_CONTACT, SUBSTEPS_PER_CONTACT};
 
 use super::Trouble;
-use super::free::Maker;
+use super::contact::MOST_SUBSTEPS;
+use super::maker::Maker;
 use crate::scene::format_free::{ContactSection, LubricationSection};
-
-/// More sub-steps in a time step are refused: the contacts would last less than a hundredth of it.
-pub(super) const MOST_SUBSTEPS: u32 = 2500;
 
 /// The keys on which the number depends: where they stand, and their unit.
 const KEYS: [(&str, &str); 6] = [

@@ -1,22 +1,21 @@
 //! Free grains: from the sections of a scene to what an engine moves them with.
 
 use psmrt_reference::coupling::{CouplingSettings, FreeGrains, Gravity, InternalFluid};
-use psmrt_reference::domain::{Domain, Face};
+use psmrt_reference::domain::Domain;
 use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::motion::{SubstepError, divide};
 use psmrt_reference::grains::plane::Plane;
-use psmrt_reference::grains::setup::{GrainError, GrainSetup, PeriodicBox};
+use psmrt_reference::grains::setup::{GrainError, GrainSetup};
 use psmrt_reference::lattice::{Vec3, viscosity};
 
-use super::contact::{Bodies, Laws, consistent, laws, mirror, substeps};
-use super::grains::{GrainList, Listed};
+use super::contact::{Bodies, consistent};
+use super::grains::GrainList;
 use super::hardness::Burden;
+use super::listed::Listed;
+use super::maker::Maker;
 use super::{Trouble, balance, effort, mirrors};
 use crate::scene::format::SceneFile;
-use crate::scene::format_free::{
-    ContactSection, GravityForm, GravitySection, InternalFluidName, LubricationSection,
-};
-use crate::scene::format_grains::Motion;
+use crate::scene::format_free::{GravityForm, GravitySection, InternalFluidName};
 use crate::units::Units;
 
 /// All grains of a scene in which some are free, and how they move; lattice units. Those that are not
@@ -99,38 +98,6 @@ pub(super) fn free_part(
     Ok(Some(part))
 }
 
-/// Makes the set-up of the grains from the keys of `[contact]` and `[lubrication]`.
-pub(super) struct Maker<'a> {
-    pub grains: &'a [Grain],
-    pub bodies: Bodies,
-    pub domain: &'a Domain,
-    /// Which faces cut grains in halves.
-    pub mirrored: [[bool; 2]; 3],
-    pub tau: f64,
-    pub units: &'a Units,
-}
-
-impl Maker<'_> {
-    /// The set-up and the faces that hold grains back. Errors at a value that cannot be used.
-    pub fn make(
-        &self,
-        contact: &ContactSection,
-        lubrication: Option<&LubricationSection>,
-    ) -> Result<(GrainSetup, Vec<Plane>), Trouble> {
-        let laws = laws(contact, &self.bodies, self.units)?;
-        let planes = planes(self.domain, &laws, &self.mirrored);
-        let length =
-            |axis: usize| self.domain.is_periodic(axis).then(|| self.domain.cells()[axis] as f64);
-        let setup = GrainSetup {
-            sides: PeriodicBox { lengths: [length(0), length(1), length(2)] },
-            lubrication: lubrication.map(|section| self.lubrication(section)).transpose()?,
-            substeps: substeps(contact)?,
-            ..GrainSetup::new(laws.grains)
-        };
-        Ok((setup, planes))
-    }
-}
-
 /// Errors at a section that only free grains have.
 fn no_free_grains(file: &SceneFile) -> Result<(), Trouble> {
     let given = [
@@ -158,34 +125,6 @@ fn gravity(section: &GravitySection, units: &Units) -> Result<Gravity, Trouble> 
     })
 }
 
-/// The faces as planes: walls with their velocity, mirrors as what they mirror, and inlets, outflows
-/// and pressure faces as sieves, which let the fluid pass and hold grains back.
-fn planes(domain: &Domain, laws: &Laws, mirrored: &[[bool; 2]; 3]) -> Vec<Plane> {
-    let mut planes = Vec::new();
-    for axis in 0..3 {
-        for (side, face) in domain.faces().axis(axis).into_iter().enumerate() {
-            let (velocity, law) = match face {
-                Face::Periodic => continue,
-                // Grains whose centres lie on it are cut in halves: they touch nothing there.
-                Face::FreeSlip if mirrored[axis][side] => continue,
-                Face::FreeSlip => (Vec3::zeros(), mirror(&laws.grains)),
-                Face::Wall { velocity } => (velocity, laws.walls),
-                Face::VelocityInlet { .. }
-                | Face::FreeOutflow
-                | Face::Pressure { .. }
-                | Face::DevelopedPressure { .. }
-                | Face::NonReflectingPressure { .. } => (Vec3::zeros(), laws.walls),
-            };
-            let mut point = Vec3::zeros();
-            let mut inward = Vec3::zeros();
-            (point[axis], inward[axis]) =
-                if side == 0 { (0.0, 1.0) } else { (domain.cells()[axis] as f64, -1.0) };
-            planes.push(Plane { velocity, ..Plane::fixed(point, inward, law) });
-        }
-    }
-    planes
-}
-
 /// The key to blame for grains that cannot be moved.
 fn trouble(error: &GrainError, list: &GrainList) -> Trouble {
     let change = "change the value";
@@ -201,19 +140,5 @@ fn trouble(error: &GrainError, list: &GrainList) -> Trouble {
         }
         GrainError::Lubrication(_) => Trouble::new("lubrication", error.to_string(), change),
         _ => Trouble::new("grains", error.to_string(), change),
-    }
-}
-
-impl Listed {
-    /// Mass in lattice units.
-    fn mass(&self) -> f64 {
-        Grain::sphere(self.centre, self.radius, self.density).mass
-    }
-
-    fn to_grain(&self) -> Grain {
-        let grain = Grain::sphere(self.centre, self.radius, self.density)
-            .moving(self.velocity)
-            .spinning(self.angular_velocity);
-        Grain { held: self.motion != Motion::Free, ..grain }
     }
 }

@@ -11,8 +11,7 @@ use psmrt_reference::grains::grain::{Grain, sphere_volume};
 
 use super::Trouble;
 use super::contact::DEFAULT_FRICTION;
-use super::grain_kinds::size_key;
-use super::grains::{Ball, Place, check_size};
+use super::listed::{Ball, Place, check_size, size_key};
 use super::numbers::{absent, coefficient, count, needed, positive};
 use crate::packing::{Amount, Sizes};
 use crate::scene::format_grains::GrainsSection;

@@ -2,32 +2,10 @@
 
 use std::path::Path;
 
-use super::grains::{Ball, Place};
+use super::listed::{Ball, Place};
 use super::numbers::{absent, finite, needed, positive};
 use super::{Trouble, arrays, generated, grain_list};
 use crate::scene::format_grains::{GrainsKind, GrainsSection};
-
-/// The key to blame for where a grain is.
-pub(super) fn place_key(section: &GrainsSection, at: &dyn Fn(&str) -> String) -> String {
-    match section.kind {
-        GrainsKind::Sphere => at("centre"),
-        GrainsKind::Csv => at("file"),
-        GrainsKind::Array if section.diameter.is_some() => at("diameter"),
-        GrainsKind::Array => at("solid_fraction"),
-        GrainsKind::Bed => at("count"),
-        GrainsKind::Random if section.count.is_some() => at("count"),
-        GrainsKind::Random => at("solid_fraction"),
-    }
-}
-
-/// The key to blame for how large a grain is.
-pub(super) fn size_key(section: &GrainsSection, at: &dyn Fn(&str) -> String) -> String {
-    match section.kind {
-        GrainsKind::Csv | GrainsKind::Array => place_key(section, at),
-        _ if section.diameter_range.is_some() => at("diameter_range"),
-        _ => at("diameter"),
-    }
-}
 
 /// Errors at a key that belongs to another kind.
 pub(super) fn foreign_keys(

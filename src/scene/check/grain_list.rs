@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use super::Trouble;
-use super::grains::Ball;
 pub use super::list_header::COLUMNS;
 use super::list_header::{Column, columns, wanted};
 use super::list_text::{Fault, as_decimal_comma, as_fortran, cells, decoded, numbered_lines};
+use super::listed::Ball;
 use crate::input;
 use crate::quote::{self, quoted};
 

@@ -6,41 +6,14 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
+use super::listed::{Ball, Listed, Place, check_size, place_key, size_key};
 use super::numbers::{absent, beyond, finite, needed, positive, shorter_step};
 use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
 use crate::scene::format_grains::{GrainsSection, Motion};
 use crate::units::Units;
 
-/// A grain with fewer cells across is not seen by the fluid as a sphere at all.
-pub const MIN_CELLS_PER_DIAMETER: f64 = 2.0;
-
 /// Densities of free grains over that of the fluid: beyond lie mistaken units.
 const DENSITY_RATIOS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
-
-/// A sphere, SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Ball {
-    pub si_centre: [f64; 3],
-    pub si_diameter: f64,
-    /// Where its file gives one.
-    pub si_density: Option<f64>,
-    /// Its line in the file that it comes from, from 1.
-    pub line: Option<usize>,
-}
-
-/// Where grains are put down: the domain, and how a key of their section is called.
-pub(super) struct Place<'a> {
-    pub at: &'a dyn Fn(&str) -> String,
-    pub domain: &'a Domain,
-    pub units: &'a Units,
-}
-
-impl Place<'_> {
-    /// Lengths of the domain, m.
-    pub fn si_lengths(&self) -> [f64; 3] {
-        self.domain.cells().map(|n| n as f64 * self.units.si_dx)
-    }
-}
 
 /// The contents of a file that a scene names: a run keeps a copy.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,36 +30,6 @@ impl Attachment {
     /// Name of the copy in the folder of a run.
     pub fn file_name(&self) -> String {
         format!("grains_{}.csv", self.section)
-    }
-}
-
-/// A grain in lattice units, with the key to blame for it.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Listed {
-    pub key: String,
-    /// Its line in the file that it comes from.
-    pub line: Option<usize>,
-    pub motion: Motion,
-    pub centre: Vec3,
-    pub radius: f64,
-    /// Over that of the fluid; 1 for grains that are not free, where it means nothing.
-    pub density: f64,
-    pub velocity: Vec3,
-    pub angular_velocity: Vec3,
-}
-
-impl Listed {
-    /// Trouble with it.
-    pub fn trouble(&self, problem: String, remedy: &str) -> Trouble {
-        Trouble::new(&self.key, problem, remedy).on_line(self.line)
-    }
-
-    /// How messages about several grains call it, `number` from 0.
-    pub fn name(&self, number: usize) -> String {
-        match self.line {
-            Some(line) => format!("grain {number} (from 0; line {line} of {})", self.key),
-            None => format!("grain {number} (from 0; {})", self.key),
-        }
     }
 }
 
@@ -124,9 +67,8 @@ impl GrainList {
                 let density = density(section, &at, &ball, units).map_err(on_line)?;
                 let centre = Units::to_lattice(ball.si_centre, units.si_dx);
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
-                let (key, motion) = (grain_kinds::place_key(section, &at), section.motion);
-                check_size(&grain_kinds::size_key(section, &at), radius, domain, units)
-                    .map_err(on_line)?;
+                let (key, motion) = (place_key(section, &at), section.motion);
+                check_size(&size_key(section, &at), radius, domain, units).map_err(on_line)?;
                 check_speed(&at("spin"), &velocity, &angular_velocity, radius, units)
                     .map_err(on_line)?;
                 neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
@@ -219,42 +161,6 @@ fn density(
         DENSITY_RATIOS.end()
     );
     Err(Trouble::new(key, problem, "densities are in kg/m3: water has 1000, quartz 2650"))
-}
-
-/// Errors if a grain is too coarse.
-pub(super) fn check_size(
-    key: &str,
-    radius: f64,
-    domain: &Domain,
-    units: &Units,
-) -> Result<(), Trouble> {
-    let lengths = domain.cells().map(|cells| cells as f64);
-    let largest = 4.0 * Vec3::from(lengths).norm();
-    if 2.0 * radius > largest {
-        let [x, y, z] = lengths.map(|length| length * units.si_dx);
-        let problem = format!(
-            "a grain of {:.4e} m is far larger than the domain ({x:.4e} x {y:.4e} x {z:.4e} m): no fluid is \
-             left, wherever its centre lies",
-            2.0 * radius * units.si_dx
-        );
-        let remedy = format!(
-            "lengths are in metres (a micrometre is 1e-6); a sphere that mirror faces cut may be up to \
-             {:.1e} m across",
-            largest * units.si_dx
-        );
-        return Err(Trouble::new(key, problem, remedy));
-    }
-    if 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
-        return Ok(());
-    }
-    let problem = format!(
-        "a grain of {:.4e} m is {:.2} cells across; at least {MIN_CELLS_PER_DIAMETER} are needed, \
-         8 or more are good",
-        2.0 * radius * units.si_dx,
-        2.0 * radius
-    );
-    let remedy = format!("use `domain.dx = {:.3e}` (m) or less", radius * units.si_dx / 4.0);
-    Err(Trouble::new(key, problem, remedy))
 }
 
 fn check_speed(

@@ -5,7 +5,7 @@ use psmrt_reference::grains::lubrication::Lubrication;
 use psmrt_reference::lattice::viscosity;
 
 use super::Trouble;
-use super::free::Maker;
+use super::maker::Maker;
 use super::numbers::positive;
 use crate::scene::format_free::LubricationSection;
 

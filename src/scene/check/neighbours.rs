@@ -4,7 +4,7 @@ use psmrt_reference::domain::{Domain, Face};
 use psmrt_reference::lattice::Vec3;
 
 use super::Trouble;
-use super::grains::Listed;
+use super::listed::Listed;
 use crate::units::Units;
 
 /// How deep two grains may overlap, in diameters of the smaller, or a grain and a face: contacts in

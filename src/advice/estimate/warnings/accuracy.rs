@@ -1,12 +1,11 @@
 //! Warnings of grids and relaxation times with which a flow comes out wrong, by the same prediction as
 //! `psmrt plan` makes.
 
-use super::warning;
-use crate::advice::estimate::Warning;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
 use crate::advice::plan::predict::{Outside, Parameters, Predicted, percent, predict};
-use crate::advice::tradeoff::model::Models;
+use crate::advice::tradeoff::models::Models;
 use crate::engine::EngineName;
 use crate::scene::{EngineKind, Scene};
 use psmrt_reference::collision::Preset;

@@ -2,9 +2,8 @@
 
 use psmrt_reference::grains::hold::DEEPEST;
 
-use super::warning;
-use crate::advice::estimate::Warning;
 use crate::advice::estimate::grains::burden;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::check::hardness::{ONE_ON_ONE, Overlaps};
 use crate::scene::{FreePart, Scene};
 

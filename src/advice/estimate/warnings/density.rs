@@ -2,8 +2,7 @@
 
 use psmrt_reference::coupling::InternalFluid;
 
-use super::warning;
-use crate::advice::estimate::Warning;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::advice::plan::facts::lightest;
 use crate::advice::stability::limits;
 use crate::scene::Scene;

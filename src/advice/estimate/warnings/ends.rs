@@ -3,9 +3,8 @@
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::lattice::CS2;
 
-use super::warning;
-use crate::advice::estimate::Warning;
 use crate::advice::estimate::spheres::solid_fraction;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
 
 /// How much shorter a channel is at each pressure face, in widths: fitted. Plane channels of 1 to 4 widths at 8

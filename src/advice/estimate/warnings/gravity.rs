@@ -5,8 +5,7 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::sphere_volume;
 use psmrt_reference::lattice::Vec3;
 
-use super::warning;
-use crate::advice::estimate::Warning;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {

@@ -1,7 +1,6 @@
 //! Warnings of columns of grain lists that are not used.
 
-use super::warning;
-use crate::advice::estimate::Warning;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {

@@ -1,7 +1,6 @@
 //! Warnings of prescribed spheres whose way ends at a face or in another sphere.
 
-use super::warning;
-use crate::advice::estimate::Warning;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::courses::{Lookout, leavings};
 use crate::scene::Scene;
 

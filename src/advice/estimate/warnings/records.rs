@@ -1,7 +1,6 @@
 //! Warnings of runs that record nothing, or rows at other times than those asked for.
 
-use super::warning;
-use crate::advice::estimate::Warning;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::{OutputInterval, Scene};
 
 /// Rows further apart or closer than asked for by this share cause a warning.

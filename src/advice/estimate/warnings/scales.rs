@@ -2,8 +2,8 @@
 
 use psmrt_reference::lattice::viscosity;
 
-use super::warning;
-use crate::advice::estimate::{Warning, si_velocity};
+use crate::advice::estimate::velocity::si_velocity;
+use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
 
 /// Speeds above this Mach number make more than a few percent of error.

@@ -47,7 +47,7 @@ use psmrt::table::{Table, TableError};
 pub use bench::{Bench, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use found::drawn;
-pub use seepage::bed::{Bed, Packing};
+pub use seepage::bed::{BedRun, Packing};
 pub use seepage::laws::{BED_LAWS, BedLaw};
 pub use sphere_drag::stream::Stream;
 pub use steadiness::{Settled, steadiness};
@@ -69,6 +69,9 @@ pub struct Case {
     /// The file in its folder with reviewed rows: the oracle's at the quick scale, or, without scenes,
     /// those of the full form or of another program.
     pub rows: &'static str,
+    /// The other tables, made by runs or of another case, that its claims and figures rest on: it opens none besides
+    /// these, its literature and its rows.
+    pub studies: &'static [&'static str],
     /// The units of its rows, column by column where they differ.
     pub units: &'static str,
     /// How its full form is made and what it holds, in words.

@@ -58,7 +58,7 @@ pub fn golden(command: &GoldenCommand) -> Result<(), Failure> {
         let path = golden.path(case.rows);
         let interrupted = Arc::clone(&interrupted);
         let mut bench = Bench::new(&request.golden, EngineName::Reference, None, |what| {
-            tell(&format!("  {what}"))
+            tell(&format!("  {what}"));
         })
         .watched(Box::new(move |scene| {
             Box::new(Progress::new(scene, false, Arc::clone(&interrupted)))

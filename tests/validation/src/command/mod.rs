@@ -5,6 +5,7 @@ mod environment;
 pub mod golden;
 pub mod report;
 mod report_files;
+pub mod report_request;
 pub mod speed;
 pub mod stability;
 pub mod tradeoff;

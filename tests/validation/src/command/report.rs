@@ -4,17 +4,17 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
 use std::ops::RangeInclusive;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use clap::Args;
 use psmrt_report::{Appendix, DataTable, Figure, Page, Section, Verdict, render_page, render_svg};
 use serde_json::json;
 
 use super::environment::environment;
 use super::report_files::{self, command, copies, measured};
+use super::report_request::ReportRequest;
 use crate::cases::{Bench, CASES, Case, CaseError, Claim, Golden, Settled, drawn, steadiness};
 use crate::failure::Failure;
 use psmrt::command::execute::interruption;
@@ -26,30 +26,6 @@ use psmrt::kernel::Gpu;
 use psmrt::output::atomic;
 use psmrt::provenance;
 use psmrt::table::Table;
-
-/// What `cargo validate report` is asked for.
-#[derive(Args, Clone, Debug)]
-pub struct ReportRequest {
-    /// Folder for the page, its figures and tables; earlier ones there are replaced
-    #[arg(long, value_name = "DIR", default_value = "out/report")]
-    pub out: PathBuf,
-    /// Folder of the cases
-    #[arg(long, value_name = "DIR", default_value = "golden")]
-    pub golden: PathBuf,
-    /// Only this case; can be given several times
-    #[arg(long = "case", value_name = "NAME")]
-    pub cases: Vec<String>,
-    /// At the full scale: hours; runs are kept in `runs` in the folder, and a report that was cut off
-    /// goes on from their checkpoints
-    #[arg(long)]
-    pub full: bool,
-    /// Only the oracle, even where there is an adapter
-    #[arg(long)]
-    pub oracle_only: bool,
-    /// Opens the page in a browser
-    #[arg(long)]
-    pub open: bool,
-}
 
 /// Makes the report. Errors if a case cannot be measured or a claim fails; the page is written first.
 pub fn report(request: &ReportRequest, json: bool) -> Result<(), Failure> {

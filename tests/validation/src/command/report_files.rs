@@ -8,7 +8,7 @@ use std::path::Path;
 
 use psmrt_report::{Figure, Link, write_svg};
 
-use super::report::ReportRequest;
+use super::report_request::ReportRequest;
 use crate::cases::{Case, CaseError};
 use crate::failure::Failure;
 use psmrt::command::write;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::failure::Failure;
-use crate::stability::record::Record;
+use crate::stability::record::RunLog;
 use crate::stability::{FLOWS, Flow, Lab, map};
 use psmrt::command::say::say;
 use psmrt::engine::EngineName;
@@ -42,7 +42,7 @@ pub fn stability(request: &StabilityRequest) -> Result<(), Failure> {
     }
     let lab = Lab { gpu };
     for flow in FLOWS.iter().filter(wanted) {
-        let mut record = Record::open(flow, &request.out)?;
+        let mut record = RunLog::open(flow, &request.out)?;
         for engine in [EngineName::Reference, EngineName::Wgpu] {
             if engine == EngineName::Reference || lab.gpu.is_some() {
                 map(flow, engine, &lab, &mut record, |row| say(&format!("{}: {row}", flow.name)))?;

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::tradeoff::fitting::Fits;
 use crate::tradeoff::measure::Runner;
 use crate::tradeoff::parameters::{Flow, Parameters};
-use crate::tradeoff::record::Record;
+use crate::tradeoff::record::SweepLog;
 use crate::tradeoff::row::Row;
 use crate::tradeoff::sweep::runs;
 use crate::tradeoff::trial::trials;
@@ -62,7 +62,7 @@ pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), Failure> {
          # drag, seepage), of the settling velocity, or of the profile (poiseuille, L2). drag: exact drag over\n\
          # Stokes'. seconds: of one run on a machine that may be shared; compare cell_updates.\n"
     );
-    let mut record = Record::open(&request.out.join(file), &header)?;
+    let mut record = SweepLog::open(&request.out.join(file), &header)?;
     let todo: Vec<_> = wanted.into_iter().filter(|parameters| !record.holds(parameters)).collect();
     let (can, cannot): (Vec<_>, Vec<_>) =
         todo.into_iter().partition(|parameters| runner.can(parameters));

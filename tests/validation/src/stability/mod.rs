@@ -178,7 +178,7 @@ pub enum LabError {
     NoDevice,
     /// The file of the rows.
     #[error("{file}: {problem}")]
-    Record {
+    RunLog {
         /// The file.
         file: String,
         /// What is wrong.

@@ -24,18 +24,18 @@ const COLUMNS: [&str; 11] = [
 ];
 
 /// The runs of a flow that have been made.
-pub struct Record {
+pub struct RunLog {
     path: PathBuf,
     known: HashMap<String, Outcome>,
 }
 
-impl Record {
+impl RunLog {
     /// Opens the record of a flow in a folder, with its head if it is new. Errors if there is something
     /// else.
     pub fn open(flow: &Flow, folder: &Path) -> Result<Self, LabError> {
         let path = folder.join(format!("{}.csv", flow.name));
         let wrong =
-            |problem: String| LabError::Record { file: path.display().to_string(), problem };
+            |problem: String| LabError::RunLog { file: path.display().to_string(), problem };
         if !path.exists() {
             fs::create_dir_all(folder).map_err(|error| wrong(error.to_string()))?;
             fs::write(&path, head(flow)).map_err(|error| wrong(error.to_string()))?;
@@ -52,7 +52,7 @@ impl Record {
                 Outcome::of(&row[6]).ok_or_else(|| wrong(format!("outcome {:?}", row[6])))?;
             known.insert(row[..6].join(","), outcome);
         }
-        Ok(Record { path, known })
+        Ok(RunLog { path, known })
     }
 
     /// The outcome of a run, if it has been made.
@@ -62,7 +62,7 @@ impl Record {
 
     /// Adds a run; returns its row.
     pub fn add(&mut self, line: &Line, value: f64, found: &Found) -> Result<String, LabError> {
-        let wrong = |error: std::io::Error| LabError::Record {
+        let wrong = |error: std::io::Error| LabError::RunLog {
             file: self.path.display().to_string(),
             problem: error.to_string(),
         };

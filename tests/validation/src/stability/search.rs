@@ -1,6 +1,6 @@
 //! Goes along lines: all values, or only those that find where it ceases to be stable and to be right.
 
-use super::record::Record;
+use super::record::RunLog;
 use super::{Flow, Found, Lab, LabError, Outcome, Search};
 use psmrt::engine::EngineName;
 
@@ -9,7 +9,7 @@ pub fn map(
     flow: &Flow,
     engine: EngineName,
     lab: &Lab,
-    record: &mut Record,
+    record: &mut RunLog,
     tell: impl Fn(&str),
 ) -> Result<(), LabError> {
     for line in (flow.lines)(engine) {

@@ -44,7 +44,7 @@ pub fn low_points(sweep: &[Row]) -> Result<Vec<GrainPoint>, TableError> {
 }
 
 /// A bed of the study: packing, cells per diameter, relaxation time, solid fraction and permeability in d².
-struct Bed {
+struct StudyBed {
     packing: String,
     cells: f64,
     tau: f64,
@@ -52,7 +52,7 @@ struct Bed {
     permeability: f64,
 }
 
-impl Bed {
+impl StudyBed {
     /// The point of a bed whose permeability should be `exact`.
     fn point(&self, exact: f64) -> GrainPoint {
         GrainPoint {
@@ -89,7 +89,7 @@ fn beds() -> Result<Vec<GrainPoint>, TableError> {
         let packing = word("packing")?;
         let packing =
             if packing == "fcc" { packing } else { format!("{packing}, seed {}", word("seed")?) };
-        beds.push(Bed {
+        beds.push(StudyBed {
             packing,
             cells: row.number("cells_per_diameter")?,
             tau: row.number("tau")?,

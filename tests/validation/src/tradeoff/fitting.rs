@@ -2,11 +2,11 @@
 //! `cargo validate coefficients`.
 
 use psmrt::advice::tradeoff::model::{
-    Evidence, GrainModel, LEAST_ERROR, METHODS, Models, SolidMethod, WallModel, grain_error,
-    slip_error,
+    Evidence, GrainModel, LEAST_ERROR, METHODS, SolidMethod, WallModel, grain_error, slip_error,
 };
 use psmrt::advice::tradeoff::model_eps::{EpsModel, logarithm};
 use psmrt::advice::tradeoff::model_low::{LowModel, shift, spread};
+use psmrt::advice::tradeoff::models::Models;
 use psmrt::advice::tradeoff::runs::GrainPoint;
 use psmrt::table::TableError;
 use psmrt_reference::collision::Preset;

@@ -11,13 +11,13 @@ use psmrt::table::{Table, TableError};
 
 /// A file of rows that new ones are added to.
 #[derive(Debug)]
-pub struct Record {
+pub struct SweepLog {
     path: PathBuf,
     /// All rows in it, in their order.
     pub rows: Vec<Row>,
 }
 
-impl Record {
+impl SweepLog {
     /// Opens a file, or begins it with `header` (lines that start with `#`). A last line that was cut
     /// off is dropped. Errors if the file holds anything else than rows of a sweep.
     pub fn open(path: &Path, header: &str) -> Result<Self, CaseError> {
@@ -34,7 +34,7 @@ impl Record {
         }
         let named = |error: TableError| TableError(format!("{}: {error}", path.display()));
         let table = Table::parse(&path.display().to_string(), whole)?;
-        Ok(Record { path: path.to_owned(), rows: Row::of_table(&table).map_err(named)? })
+        Ok(SweepLog { path: path.to_owned(), rows: Row::of_table(&table).map_err(named)? })
     }
 
     /// Whether a run with these parameters is there already.

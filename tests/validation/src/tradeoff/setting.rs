@@ -116,14 +116,14 @@ fn poiseuille(parameters: &Parameters) -> (&'static str, Vec<String>) {
         format!("body_force.acceleration=[{si_force:e}, 0.0, 0.0]"),
         format!("records[0].every_steps={rows}"),
         format!("stop.steps={}", 200.0 * rows),
-        format!("stop.steady.tolerance={:e}", quiet(parameters, 1e-8)),
+        format!("stop.steady.tolerance={:e}", steady_tolerance(parameters, 1e-8)),
     ];
     ("poiseuille", changes)
 }
 
 /// What may still be to go, relative, when a run is steady; single precision has noise above 1e-6, and
 /// emulated storage never becomes steady: it runs to its limit.
-fn quiet(parameters: &Parameters, wanted: f64) -> f64 {
+fn steady_tolerance(parameters: &Parameters, wanted: f64) -> f64 {
     match parameters.storage {
         _ if parameters.is_emulated() => 1e-9,
         Storage::F64 => wanted,
@@ -161,7 +161,7 @@ fn array(
         format!("initial.velocity=[{:e}, 0.0, 0.0]", start * si_dx / si_dt),
         format!("records[0].every_steps={rows}"),
         format!("stop.steps={}", if parameters.is_emulated() { 20.0 } else { 100.0 } * rows),
-        format!("stop.steady.tolerance={:e}", quiet(parameters, 2e-5)),
+        format!("stop.steady.tolerance={:e}", steady_tolerance(parameters, 2e-5)),
     ];
     for (i, site) in sites.iter().enumerate() {
         let [x, y, z] = site.map(|share| share * f64::from(n) * si_dx);

@@ -3,7 +3,8 @@
 use super::evidence::{grain_point, wall_point};
 use super::parameters::Parameters;
 use super::row::Row;
-use psmrt::advice::tradeoff::model::{LEAST_ERROR, Models};
+use psmrt::advice::tradeoff::model::LEAST_ERROR;
+use psmrt::advice::tradeoff::models::Models;
 use psmrt::table::{Table, TableError};
 
 const RESULTS: &str = include_str!("../../../../golden/tradeoff/held_back_results.csv");

@@ -4,6 +4,7 @@
 use crate::common::Budget;
 use psmrt::engine::EngineName;
 use psmrt_validation::cases::{Bench, CASES, Case, CaseError, Claim, Golden, drifts, steadiness};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 fn golden() -> &'static Path {
@@ -37,6 +38,17 @@ fn holds_on(name: &str, engine: EngineName, budget: &mut Budget) {
         assert!(found.is_empty(), "{name}: look at `cargo validate golden diff {name}`: {found:?}");
     }
     assert!(!(case.draw)(&files, &rows).unwrap().is_empty(), "{name} draws nothing");
+    let read: BTreeSet<String> = bench.tables_read().union(&files.tables_read()).cloned().collect();
+    let declared = case.literature.iter().chain(case.studies).chain([&case.rows]);
+    let declared: BTreeSet<String> = declared.map(|&file| file.to_owned()).collect();
+    let undeclared: Vec<_> = read.difference(&declared).collect();
+    assert!(
+        undeclared.is_empty(),
+        "{name} rests on tables that it does not declare: {undeclared:?}"
+    );
+    for study in case.studies {
+        assert!(read.contains(*study), "{name} declares {study} and does not read it");
+    }
 }
 
 /// The same on the CPU engine in both precisions. The oracle itself, which takes ten times as long, is held to these

@@ -7,6 +7,7 @@ mod edges;
 
 mod acceptance;
 mod coefficients;
+mod errata;
 mod extremes;
 mod golden;
 mod report;

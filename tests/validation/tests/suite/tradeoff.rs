@@ -2,7 +2,8 @@
 
 use crate::common::{Budget, golden_rows};
 use proptest::prelude::*;
-use psmrt::advice::tradeoff::model::{GrainModel, Models, SolidMethod};
+use psmrt::advice::tradeoff::model::{GrainModel, SolidMethod};
+use psmrt::advice::tradeoff::models::Models;
 use psmrt::advice::tradeoff::runs::GrainPoint;
 use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
@@ -16,7 +17,7 @@ use psmrt_validation::tradeoff::fitting::{Fits, eps_model, grain_model};
 use psmrt_validation::tradeoff::measure::Runner;
 use psmrt_validation::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt_validation::tradeoff::pareto::front;
-use psmrt_validation::tradeoff::record::Record;
+use psmrt_validation::tradeoff::record::SweepLog;
 use psmrt_validation::tradeoff::row::Row;
 use psmrt_validation::tradeoff::storage::half;
 use psmrt_validation::tradeoff::sweep::runs;
@@ -172,23 +173,23 @@ fn a_sweep_goes_on_after_it_was_cut_off_and_refuses_a_foreign_file() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("sweep.csv");
     let rows = committed_sweep().unwrap();
-    let mut record = Record::open(&file, "# a header\n").unwrap();
+    let mut record = SweepLog::open(&file, "# a header\n").unwrap();
     for row in &rows[..2] {
         record.add(row.clone()).unwrap();
     }
     let whole = fs::read_to_string(&file).unwrap();
     fs::write(&file, format!("{whole}sc,0.2,8,0.")).unwrap();
-    let mut again = Record::open(&file, "# another header\n").unwrap();
+    let mut again = SweepLog::open(&file, "# another header\n").unwrap();
     assert_eq!(again.rows.len(), 2);
     assert!(again.holds(&rows[0].parameters) && !again.holds(&rows[2].parameters));
     assert_eq!(fs::read_to_string(&file).unwrap(), whole);
     again.add(rows[2].clone()).unwrap();
-    let read = Record::open(&file, "").unwrap().rows;
+    let read = SweepLog::open(&file, "").unwrap().rows;
     assert_eq!(read[2].parameters, rows[2].parameters);
 
     let foreign = folder.path().join("foreign.csv");
     fs::write(&foreign, "a,b\n1,2\n").unwrap();
-    let error = Record::open(&foreign, "").unwrap_err().to_string();
+    let error = SweepLog::open(&foreign, "").unwrap_err().to_string();
     assert!(error.contains("foreign.csv") && error.contains("columns"), "{error}");
     assert_eq!(fs::read_to_string(&foreign).unwrap(), "a,b\n1,2\n");
 }

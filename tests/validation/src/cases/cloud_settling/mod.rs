@@ -31,6 +31,7 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml"],
     literature: &["literature.csv"],
     rows: "expected.csv",
+    studies: &["alone.csv", "full.csv"],
     units: "velocity_m_s and standard_error_m_s in m/s, downwards; wall_distance_diameters in diameters",
     full: "cargo validate report --full --case cloud_settling lets 975 grains settle, as full.csv holds; an hour. The paper's 12,000: psmrt run golden/cloud_settling/paper.toml --engine wgpu, 3 s a step on two cores",
     measure,

@@ -18,6 +18,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "confusion.csv",
+    studies: &[],
     units: "numbers of answers and of mistakes",
     full: "cargo run --release -p psmrt-validation --example confusion made these rows; minutes",
     measure,

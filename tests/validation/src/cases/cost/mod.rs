@@ -19,6 +19,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "cost.csv",
+    studies: &[],
     units: "time_ratio without units; ns_per_cell_update in nanoseconds; bytes_per_cell in bytes",
     full: "cargo run --release -p psmrt-validation --example model_cost made these rows; minutes",
     measure: |bench| bench.literature(CASE.name, CASE.rows),

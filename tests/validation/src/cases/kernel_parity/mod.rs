@@ -20,6 +20,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "parity.csv",
+    studies: &[],
     units: "error and allowed in what the column quantity names",
     full: "cargo run -p psmrt-validation --example kernel_parity made these rows; minutes",
     measure,

@@ -22,6 +22,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &[],
     rows: "speed.csv",
+    studies: &[],
     units: "cells along an edge; kernel and oracle in million cell updates a second; cost and ratio without units",
     full: "cargo run -p psmrt-validation --example kernel_speed made these rows; minutes",
     measure,

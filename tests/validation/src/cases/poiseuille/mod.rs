@@ -30,6 +30,7 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml", "dhumieres.toml"],
     literature: &["bounceback_wall.csv"],
     rows: "expected.csv",
+    studies: &[],
     units: "wall_outwards in cells; relative_l2 and slip_l2 relative; u1 to u8 over the largest exact velocity",
     full: "cargo validate report --full --case poiseuille goes on to 128 cells; minutes",
     measure,
@@ -101,7 +102,7 @@ fn row(
         format!("time.tau={tau}"),
         // Coarse grids take long steps, and at least five rows of 500 of them.
         "stop.time=200.0".to_owned(),
-        format!("stop.steady.tolerance={:e}", quiet(bench.engine_name(), cells)),
+        format!("stop.steady.tolerance={:e}", steady_tolerance(bench.engine_name(), cells)),
     ];
     // A row sees the slowest disturbance fall, which takes as long as the square of the width.
     if cells > 32 {
@@ -144,7 +145,7 @@ fn row(
 /// What the mean velocity may still have to go, relative, for the flow to be steady: far below the
 /// claims, and above what the engine's own rounding makes, which in single precision grows with the grid
 /// as in the claim on the magic rates.
-fn quiet(engine: EngineName, cells: u32) -> f64 {
+fn steady_tolerance(engine: EngineName, cells: u32) -> f64 {
     if engine.is_double() { 1e-12 } else { 2e-6 * (f64::from(cells) / 32.0).powi(2).max(1.0) }
 }
 

@@ -41,7 +41,7 @@ impl Packing {
 
 /// One run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bed {
+pub struct BedRun {
     /// Collision: `mrt`, `srt` or `magic`.
     pub collision: Preset,
     /// Weight: `noble_torczynski` or `solid_fraction`.
@@ -59,8 +59,8 @@ pub struct Bed {
     pub tolerance: f64,
 }
 
-impl Bed {
-    /// The columns of [`Bed::row`].
+impl BedRun {
+    /// The columns of [`BedRun::row`].
     pub const COLUMNS: [&'static str; 23] = [
         "engine",
         "collision",

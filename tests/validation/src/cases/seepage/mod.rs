@@ -9,7 +9,7 @@ pub(super) mod study;
 use psmrt_reference::collision::Preset;
 use psmrt_report::Figure;
 
-use super::{BED_LAWS, Bed, Bench, Case, CaseError, Claim, Golden, Packing};
+use super::{BED_LAWS, BedRun, Bench, Case, CaseError, Claim, Golden, Packing};
 use bed::FCC_FRACTION;
 use psmrt::table::Table;
 
@@ -52,6 +52,13 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml", "ordered.toml", "inlet.toml", "paper.toml"],
     literature: &["literature.csv"],
     rows: "expected.csv",
+    studies: &[
+        "study.csv",
+        "stability.csv",
+        "inlet.csv",
+        "paper.csv",
+        "../sphere_arrays/literature.csv",
+    ],
     units: "permeability_d2 in squares of the diameter; largest_overlap in diameters; lattice_velocity and max_speed \
             in cells per step; the rest without units",
     full: "cargo run --release -p psmrt-validation --example seepage_study made study.csv and stability.csv (hours; it can be cut off); the paper's own size: psmrt run golden/seepage/paper.toml --engine wgpu",
@@ -61,7 +68,7 @@ pub const CASE: Case = Case {
 };
 
 /// Nine spheres, or the ordered bed, on 16 cells.
-const BED: Bed = Bed {
+const BED: BedRun = BedRun {
     collision: Preset::DHumieres,
     weighting: "noble_torczynski",
     packing: Packing::SMALL,
@@ -72,16 +79,16 @@ const BED: Bed = Bed {
 };
 
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
-    let mut table = Table::new(&Bed::COLUMNS);
+    let mut table = Table::new(&BedRun::COLUMNS);
     for reynolds in [1.0, 10.0, 30.0] {
-        table.add(Bed { reynolds, ..BED }.row(bench)?);
+        table.add(BedRun { reynolds, ..BED }.row(bench)?);
     }
-    table.add(Bed { collision: Preset::Srt, ..BED }.row(bench)?);
-    table.add(Bed { packing: Packing::Fcc, ..BED }.row(bench)?);
+    table.add(BedRun { collision: Preset::Srt, ..BED }.row(bench)?);
+    table.add(BedRun { packing: Packing::Fcc, ..BED }.row(bench)?);
     if bench.is_full() {
         let packing = Packing::Random { side: 3.0, count: 31, seed: 1 };
         for reynolds in [1.0, 10.0, 30.0, 100.0] {
-            table.add(Bed { packing, reynolds, side_cells: 36, ..BED }.row(bench)?);
+            table.add(BedRun { packing, reynolds, side_cells: 36, ..BED }.row(bench)?);
         }
     }
     Ok(table)

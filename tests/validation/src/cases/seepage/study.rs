@@ -3,12 +3,12 @@
 use super::{over, over_law};
 use crate::cases::sphere_drag::study::without_grid;
 use crate::cases::twins::{twins_claim, without_twins};
-use crate::cases::{BED_LAWS, Bed, CaseError, Claim, steadiness};
+use crate::cases::{BED_LAWS, BedRun, CaseError, Claim, steadiness};
 use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
 
 /// What tells a run from all others.
-const RUN: &[&str] = Bed::COLUMNS.split_at(9).0;
+const RUN: &[&str] = BedRun::COLUMNS.split_at(9).0;
 
 /// The rows with Noble and Torczynski's weight that became steady; the oracle's where both engines made one.
 pub fn steady(study: &Table, collision: &str) -> Result<Table, CaseError> {

@@ -43,6 +43,7 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml"],
     literature: &["literature.csv", "duct.csv"],
     rows: "expected.csv",
+    studies: &["study.csv"],
     units: "width_d in diameters; lattice_velocity and max_speed in cells per step; the rest without units",
     full: "cargo validate report --full --case sphere_drag goes on to 12 cells per diameter (a quarter of an hour); cargo run --release -p psmrt-validation --example sphere_drag_study made study.csv (hours; it can be cut off); the paper's own grid: psmrt run golden/sphere_drag/scene.toml --set domain.dx=1e-5",
     measure,
@@ -169,7 +170,10 @@ fn quick(engine: &str, known: &Known, rows: &Table) -> Result<Vec<Claim>, CaseEr
 
 /// The claims of the study.
 fn full(known: &Known, study: &Table) -> Result<Vec<Claim>, CaseError> {
-    study::claims(study, known.duct, |reynolds| known.open(reynolds))
+    let open = |reynolds: &str| known.open(reynolds);
+    let mut claims = study::claims(study, known.duct, open)?;
+    claims.extend(others::claims(study, open)?);
+    Ok(claims)
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {

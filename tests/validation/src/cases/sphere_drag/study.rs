@@ -1,6 +1,5 @@
 //! The full form of the sphere in a stream: grids and widths extrapolated.
 
-use super::others;
 use crate::cases::twins::{twins_claim, without_twins};
 use crate::cases::{CaseError, Claim, Stream, steadiness};
 use psmrt::table::Table;
@@ -266,6 +265,5 @@ pub fn claims(
             why,
         });
     }
-    claims.extend(others::claims(study, &open)?);
     Ok(claims)
 }

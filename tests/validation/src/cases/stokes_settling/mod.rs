@@ -21,6 +21,7 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml"],
     literature: &["literature.csv"],
     rows: "expected.csv",
+    studies: &[],
     units: "time_s in seconds; velocity_over_exact without units",
     full: "cargo validate report --full --case stokes_settling takes 12 cells per diameter; an hour",
     measure,

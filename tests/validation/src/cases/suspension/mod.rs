@@ -24,6 +24,7 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml"],
     literature: &["far_field.csv"],
     rows: "expected.csv",
+    studies: &["study.csv"],
     units: "velocity and far fields over Stokes' velocity of one sphere alone",
     full: "cargo run --release -p psmrt-validation --example suspension_study made study.csv; hours, and it can be cut off",
     measure,

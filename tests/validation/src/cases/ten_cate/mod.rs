@@ -28,6 +28,7 @@ pub const CASE: Case = Case {
     scenes: &["scene.toml"],
     literature: &["literature.csv", "curves.csv"],
     rows: "expected.csv",
+    studies: &["study.csv", "falls.csv"],
     units: "time_s in seconds; gap_over_d in diameters; velocity_m_s in m/s, upwards",
     full: "cargo validate report --full --case ten_cate takes the 8 cells of scene.toml; cargo run --release -p psmrt-validation --example ten_cate_study made study.csv and falls.csv (hours; it can be cut off)",
     measure,

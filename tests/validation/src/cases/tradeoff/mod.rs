@@ -11,7 +11,8 @@ use crate::tradeoff::fitting::Fits;
 use crate::tradeoff::parameters::{Flow, Storage};
 use crate::tradeoff::row::Row;
 use crate::tradeoff::trial::{Trial, score, trials};
-use psmrt::advice::tradeoff::model::{Models, SolidMethod};
+use psmrt::advice::tradeoff::model::SolidMethod;
+use psmrt::advice::tradeoff::models::Models;
 use psmrt::table::Table;
 
 /// The trade-off study.
@@ -43,6 +44,7 @@ pub const CASE: Case = Case {
     scenes: &[],
     literature: &["literature.csv"],
     rows: "held_back_check.csv",
+    studies: &["sweep.csv", "cost.csv", "held_back_results.csv", "../ten_cate/study.csv"],
     units: "errors relative; lattice_velocity in cells per step; sizes in cells",
     full: "cargo validate tradeoff made these rows; hours, and it can be cut off",
     measure,
