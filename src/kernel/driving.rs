@@ -9,7 +9,7 @@ use super::driven::{FaceRows, any_moves, face_rows};
 use super::fluid::Kernel;
 
 impl Kernel {
-    /// Lets `drive` drive the fluid from now on. Errors, and changes nothing, as [`Setup::set_drive`].
+    /// Lets `drive` drive the fluid from now on. Errors, and changes nothing, as [`psmrt_reference::setup::Setup::set_drive`].
     pub fn set_drive(&mut self, drive: &Drive) -> Result<(), DriveError> {
         self.setup.set_drive(drive)?;
         self.let_walls_move(&face_rows(&self.setup));
