@@ -184,6 +184,30 @@ fn light_grain_that_is_slow_fixed_or_prescribed_is_not_blamed_for_what_a_heavy_f
 }
 
 #[test]
+fn a_fall_is_endless_from_half_of_free_fall_up_and_its_speed_is_the_mean() {
+    let gravity = Gravity::Reduced { acceleration: Vec3::new(0.0, 0.0, -5e-3) };
+    // Of 5 times the fluid's density: an excess mass of 4 V each, in a box of 16³ cells of fluid of density 1.
+    let volume = 4.0 / 3.0 * std::f64::consts::PI * 2.4_f64.powi(3);
+    let excess = 2.0 * 4.0 * volume;
+    // After 1,000 steps in which all mass is accelerated by the excess weight.
+    let free_fall = 1000.0 * 5e-3 * excess / (4096.0 + excess);
+    // Why: between round-off and the least that another mass of grains or fluid would make, 1 of 4,559.
+    for (share, due) in [(0.5 + 1e-5, true), (0.5 - 1e-5, false)] {
+        let mean = share * free_fall;
+        let at = |z: f64, speed: f64| {
+            Grain::sphere(Vec3::new(8.0, 8.0, z), 2.4, 5.0).moving(Vec3::new(0.0, 0.0, -speed))
+        };
+        let cause = blamed(&[at(4.0, 1.5 * mean), at(12.0, 0.5 * mean)], Some(gravity));
+        match cause {
+            Cause::EndlessFall { axis: "z", speed } => {
+                assert!(due && (speed + mean).abs() < 1e-12, "at {share} of free fall: {speed}");
+            }
+            other => assert!(!due, "at {share} of free fall: {other:?}"),
+        }
+    }
+}
+
+#[test]
 fn no_fall_is_endless_where_one_of_the_grains_is_fixed() {
     let gravity = Gravity::Reduced { acceleration: Vec3::new(0.0, 0.0, -5e-3) };
     let at = |x: f64, z: f64| Grain::sphere(Vec3::new(x, x, z), 2.4, 5.0);

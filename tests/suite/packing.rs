@@ -154,7 +154,7 @@ fn a_bed_settles_between_walls_or_periodic_sides() {
 /// A bed of grains of two sizes, with all lengths so many times as long.
 fn mixed_bed(sides: BedSides, scale: f64) -> SettledBed {
     let radii = (0..90).map(|i| if i % 3 == 0 { 0.6 * scale } else { 0.45 * scale }).collect();
-    SettledBed { lengths: [4.5 * scale, 5.5 * scale], sides, radii, friction: 0.3, seed: 5 }
+    SettledBed { lengths: [5.5 * scale, 5.6 * scale], sides, radii, friction: 0.3, seed: 5 }
 }
 
 #[test]
@@ -165,13 +165,13 @@ fn grains_of_a_bed_fall_from_places_in_which_none_touches_anything() {
         assert_eq!(grains.len(), 90, "a place for each grain");
         let lengths = match sides {
             BedSides::Walls => [None; 3],
-            BedSides::Periodic => [Some(4.5), Some(5.5), None],
+            BedSides::Periodic => [Some(5.5), Some(5.6), None],
         };
         let domain = PeriodicBox { lengths };
         for (number, grain) in grains.iter().enumerate() {
             let (at, r) = (grain.position, grain.radius);
             assert_eq!(r, bed.radii[number], "grain {number} has the radius that was asked for");
-            for (axis, length) in [(0, 4.5), (1, 5.5)] {
+            for (axis, length) in [(0, 5.5), (1, 5.6)] {
                 assert!(
                     at[axis] >= r && at[axis] <= length - r,
                     "grain {number} of radius {r} at {at:?} reaches out of the sides"
@@ -187,17 +187,20 @@ fn grains_of_a_bed_fall_from_places_in_which_none_touches_anything() {
                 );
             }
         }
-        // Cells of 1.26 (2.1 times the largest radius) and a little more: 3 x 4 in a layer, 8 layers.
+        // Cells of 1.26 (2.1 times the largest radius) and a little more: 4 x 4 in a layer, 6 layers.
         let top = grains.iter().map(|grain| grain.position.z).fold(0.0, f64::max);
-        assert!((7.0 * 1.26..8.0 * 1.26).contains(&top), "the uppermost grain is at {top}");
+        assert!((5.0 * 1.26..6.0 * 1.26).contains(&top), "the uppermost grain is at {top}");
         // Not on a lattice, and not sorted by size: large grains, first in the list, are everywhere.
         let heights =
             grains.iter().filter(|grain| grain.radius == 0.6).map(|grain| grain.position.z);
         let mean = heights.sum::<f64>() / 30.0;
-        // Why: the mean of 30 heights spread evenly over 10 is off by 10/sqrt(12 * 30) = 0.5; three times that.
-        assert!((mean - 0.5 * 8.0 * 1.26).abs() < 1.6, "mean height of the large grains: {mean}");
+        // Why: the mean of 30 heights spread evenly over 7.1 is off by 7.1/sqrt(12 * 30) = 0.37; three times that.
+        assert!(
+            (mean - 0.5 * 90.0 / 16.0 * 1.26).abs() < 1.1,
+            "mean height of the large grains: {mean}"
+        );
         let on_lattice = |grain: &&Grain| {
-            (grain.position.x / 1.5).fract() == (grains[0].position.x / 1.5).fract()
+            (grain.position.x / 1.375).fract() == (grains[0].position.x / 1.375).fract()
         };
         assert!(
             grains.iter().filter(on_lattice).count() < 5,
@@ -283,6 +286,10 @@ fn packings_that_cannot_be_are_refused() {
     };
     let narrow = bed.make().unwrap_err().to_string();
     assert!(narrow.contains("box length = 0.8 must be finite and exceed"), "{narrow}");
+    for (length, fits) in [(1.0, false), (1.05, true), (f64::INFINITY, false)] {
+        let one = SettledBed { lengths: [1.05, length], radii: vec![0.5], ..bed.clone() };
+        assert_eq!(one.make().is_ok(), fits, "a grain 1 across between walls {length} apart");
+    }
 }
 
 #[test]

@@ -274,8 +274,10 @@ fn kernel_and_cpu_engine_take_from_the_reference_only_words_for_set_ups() {
 
 #[test]
 fn every_mutant_of_the_oracle_that_survived_is_explained() {
-    for file in ["golden/mutants/list.csv", "golden/mutants/grains.csv"] {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    for file in
+        ["list.csv", "grains.csv", "packings.csv"].map(|name| format!("golden/mutants/{name}"))
+    {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(&file);
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).unwrap();
         let rows: Vec<_> = reader.records().map(|row| row.unwrap()).collect();
         assert!(rows.iter().any(|row| &row[2] == "caught"), "{file}: none was caught");
