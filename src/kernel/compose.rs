@@ -8,11 +8,13 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::partial_saturation::SolidOperator;
 use psmrt_reference::setup::Setup;
 
+use super::bindings::Binding;
 use super::driven::has_densities;
-use super::layout::Layout;
+use super::layout::{Layout, Store};
 use super::numbers::{count, literal};
 use super::outgoing;
 use super::streaming::{access, faces};
+use super::table;
 
 /// Invocations of `summary`, at most: enough to keep a large device busy, few enough to read back.
 const MOST_STRANDS: u32 = 16_384;
@@ -116,6 +118,9 @@ impl Recipe<'_> {
         let mut text = self.constants();
         let mut add = |file: &str| text += &selected(file, &flags);
         add(include_str!("wgsl/drive.wgsl"));
+        if solids == SolidData::Moving {
+            add(&table::reader(self.layout.store, Binding::Records, "records"));
+        }
         if solids != SolidData::None {
             add(include_str!("wgsl/solid_part.wgsl"));
         }
@@ -128,6 +133,7 @@ impl Recipe<'_> {
             add(include_str!("wgsl/sums.wgsl"));
         }
         if with_loads {
+            add(&table::writer(self.layout.store, Binding::Moments, "moments"));
             add(include_str!("wgsl/moments_kept.wgsl"));
         }
         if listed {
@@ -147,8 +153,14 @@ impl Recipe<'_> {
 
     /// The shader that adds up the touches of each solid.
     pub(super) fn gather(&self) -> String {
-        let head = format!("const SOLIDS = {}u;\n", self.solid_count());
-        head + include_str!("wgsl/solid.wgsl") + include_str!("wgsl/gather.wgsl")
+        // A workgroup waits for its slowest part, which a software adapter does at some cost: there it has
+        // but one part, eight invocations.
+        let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
+        let tables = [(Binding::Shares, "shares"), (Binding::Moments, "moments")]
+            .map(|(binding, name)| table::reader(self.layout.store, binding, name));
+        let head = format!("const LANES = {lanes}u;\nconst SOLIDS = {}u;\n", self.solid_count());
+        let files = [include_str!("wgsl/solid.wgsl"), include_str!("wgsl/gather.wgsl")];
+        head + &tables.concat() + &files.concat()
     }
 
     /// Number of solids.
@@ -164,6 +176,9 @@ impl Recipe<'_> {
         let [nx, ny, _] = self.layout.cells;
         if !nx.is_multiple_of(along) || !ny.is_multiple_of(across) {
             flags.push("RAGGED");
+        }
+        if self.layout.store == Store::Textures {
+            flags.push("TEXTURES");
         }
         match work {
             Work::StepListed { is_first: true, .. } => flags.push("BEFORE"),

@@ -3,8 +3,10 @@
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::partial_saturation::Weighting;
 
+use super::bindings::Binding;
 use super::compose::{Recipe, selected};
 use super::numbers::{count, literal};
+use super::table;
 
 /// The stages of finding what solids cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,14 +57,18 @@ impl Recipe<'_> {
         for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
             text += &format!("const PERIODIC_{name} = {};\n", self.setup.domain.is_periodic(axis));
         }
+        let store = self.layout.store;
         text += include_str!("wgsl/solid.wgsl");
         match work.stage {
             Stage::Touch => {
+                text += &table::writer(store, Binding::Shares, "shares");
                 text += include_str!("wgsl/coordinates.wgsl");
                 text += include_str!("wgsl/fraction.wgsl");
                 text += &selected(include_str!("wgsl/cover.wgsl"), &flags);
             }
             Stage::Resolve => {
+                text += &table::reader(store, Binding::Shares, "shares");
+                text += &table::writer(store, Binding::Records, "records");
                 text += &selected(include_str!("wgsl/resolve.wgsl"), &flags);
             }
             Stage::Groups => text += include_str!("wgsl/groups.wgsl"),

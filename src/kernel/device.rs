@@ -24,6 +24,13 @@ pub struct AdapterFacts {
     pub max_binding_bytes: u64,
     /// Storage bindings of one shader.
     pub max_bindings: u32,
+    /// Storage textures of one shader.
+    pub max_texture_bindings: u32,
+    /// Cells along a side of a three-dimensional texture.
+    pub max_texture_side: u32,
+    /// Whether values of cells are kept in textures: shaders that run on the processor read those
+    /// faster.
+    pub prefers_textures: bool,
 }
 
 impl AdapterFacts {
@@ -43,6 +50,11 @@ impl AdapterFacts {
             max_buffer_bytes: limits.max_buffer_size,
             max_binding_bytes: limits.max_storage_buffer_binding_size,
             max_bindings: limits.max_storage_buffers_per_shader_stage,
+            max_texture_bindings: limits.max_storage_textures_per_shader_stage,
+            max_texture_side: limits.max_texture_dimension_3d,
+            // Of Direct3D's software adapter nothing is known.
+            prefers_textures: info.device_type == DeviceType::Cpu
+                && info.backend == wgpu::Backend::Vulkan,
         }
     }
 
@@ -110,11 +122,13 @@ impl Gpu {
         Self::open_adapter(adapter)
     }
 
-    /// The same with at most so many bytes in a binding, as adapters have that are smaller than this one.
-    pub fn open_with_bindings_of(max_binding_bytes: u64) -> Result<Arc<Self>, KernelError> {
+    /// The same for testing what hardware runs: populations in buffers, also on a software adapter, and
+    /// at most so many bytes in a binding.
+    pub fn open_like_hardware(max_binding_bytes: u64) -> Result<Arc<Self>, KernelError> {
         let gpu = Self::open(None)?;
         match Arc::try_unwrap(gpu) {
             Ok(mut gpu) => {
+                gpu.facts.prefers_textures = false;
                 gpu.facts.max_binding_bytes = gpu.facts.max_binding_bytes.min(max_binding_bytes);
                 Ok(Arc::new(gpu))
             }

@@ -9,7 +9,7 @@ use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::Solid;
-use wgpu::BufferUsages;
+use wgpu::{BufferUsages, TextureFormat};
 
 use super::buffers::Growing;
 use super::compose::{Recipe, SolidData, Work};
@@ -115,7 +115,10 @@ impl Kernel {
         let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids, with_loads: false })?;
         let face_cells = recipe.face_cells();
         let copy = || {
-            let make = |binding| Field::new(gpu, layout, "populations", layout.directions(binding));
+            let make = |binding| {
+                let directions = layout.directions(binding);
+                Field::new(gpu, layout, "populations", directions, TextureFormat::R32Float)
+            };
             (0..layout.bindings()).map(make).collect::<Result<Vec<_>, _>>()
         };
         let mut kernel = Kernel {

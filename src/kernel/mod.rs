@@ -3,7 +3,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `device.rs`, `quiet.rs` | adapters, and the device opened on one |
-//! | `layout.rs`, `field.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
+//! | `layout.rs`, `field.rs`, `table.rs`, `memory.rs`, `buffers.rs` | where the populations lie; whether they fit |
 //! | `compose.rs`, `pipeline.rs` | shaders with what the scene names and nothing else |
 //! | `bindings.rs` | the number of every binding |
 //! | `wgsl/moments.wgsl` | collision, with one relaxation time or many, and the solid part |
@@ -52,6 +52,7 @@ mod solids;
 mod state;
 mod steps;
 mod streaming;
+mod table;
 mod touches;
 mod watch;
 

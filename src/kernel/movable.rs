@@ -19,6 +19,7 @@ use super::device::Gpu;
 use super::error::KernelError;
 use super::numbers::{count, single};
 use super::pipeline::Pipeline;
+use super::table::Table;
 use super::touches::{Room, Touches};
 
 /// Touches of one solid that one workgroup works out, about.
@@ -46,7 +47,7 @@ pub(super) struct Movable {
     /// Per cell the number of its record, 0 for none.
     pub(super) slots: Growing,
     /// `(B, Σ B_s u_s)` of each covered cell.
-    pub(super) records: Growing,
+    pub(super) records: Table,
     /// Of cells in which several solids meet.
     pub(super) excess: Growing,
     given: Growing,
@@ -120,7 +121,7 @@ impl Movable {
         let shared = (all / 2).min(cells);
         let mut movable = Movable {
             slots: words("records of cells", cells)?,
-            records: words("records of covered cells", 4 * all)?,
+            records: Table::new(gpu, recipe.layout.store, "records of covered cells", 4)?,
             excess: words("records of cells in which solids meet", 8 * shared)?,
             given: Growing::new(gpu, "given solid fractions")?,
             rows: words("rows of cells about solids", 2 * u64::from(rows))?,
@@ -138,6 +139,7 @@ impl Movable {
             room,
         };
         let rows = usize::try_from(all).unwrap_or(usize::MAX);
+        movable.records.reserve(gpu, rows)?;
         touches.reserve(gpu, rows, phase.solids.len())?;
         movable.given.fill(gpu, &given(&phase.solids))?;
         Ok(movable)

@@ -3,6 +3,7 @@
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::SolidPhase;
+use wgpu::TextureFormat;
 
 use super::bindings::Binding;
 use super::buffers::Growing;
@@ -53,7 +54,7 @@ impl Solids {
         let coverage = Coverage::of(domain, phase);
         let covered = coverage.cells().len() as f64 / domain.cell_count() as f64;
         let in_every_cell = covered > DENSE;
-        let mut touches = Touches::new(gpu)?;
+        let mut touches = Touches::new(gpu, layout.store)?;
         let mut loads = Growing::new(gpu, "loads")?;
         loads.reserve(gpu, 32 * phase.solids.len() as u64)?;
         let kept = if recipe.solids == SolidData::Moving {
@@ -62,8 +63,9 @@ impl Solids {
             movable.find(gpu, &touches)?;
             Kept::Movable(Box::new(movable))
         } else {
-            let weights = Field::new(gpu, layout, "solid weights of cells", 1)?;
-            let slots = Field::new(gpu, layout, "records of cells", 1)?;
+            let field = |label, format| Field::new(gpu, layout, label, 1, format);
+            let weights = field("solid weights of cells", TextureFormat::R32Float)?;
+            let slots = field("records of cells", TextureFormat::R32Uint)?;
             weights.write(gpu, 0, bytemuck::cast_slice(&coverage.weights(phase.weighting, tau)));
             slots.write(gpu, 0, bytemuck::cast_slice(coverage.slots()));
             let tables = coverage.tables(phase, tau);

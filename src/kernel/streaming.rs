@@ -18,7 +18,7 @@ use psmrt_reference::domain::{Domain, Face};
 
 use super::bindings::Binding;
 use super::driven;
-use super::layout::Layout;
+use super::layout::{Layout, Store};
 use super::numbers::literal;
 use super::outgoing;
 
@@ -48,16 +48,22 @@ pub(super) fn access(layout: &Layout, writes: bool) -> String {
 
 /// The populations' bindings.
 fn bindings(layout: &Layout, writes: bool) -> String {
+    let kind = |access: &str| match layout.store {
+        Store::Buffers => (format!("<storage, {access}>"), "array<f32>".to_owned()),
+        Store::Textures => {
+            let access = if access == "read" { "read" } else { "write" };
+            (String::new(), format!("texture_storage_3d<r32float, {access}>"))
+        }
+    };
     let mut text = String::new();
     for binding in 0..layout.bindings() {
-        let old = Binding::Old.number() + binding;
-        text +=
-            &format!("@group(0) @binding({old}) var<storage, read> old_{binding}: array<f32>;\n");
+        let (space, what) = kind("read");
+        let number = Binding::Old.number() + binding;
+        text += &format!("@group(0) @binding({number}) var{space} old_{binding}: {what};\n");
         if writes {
-            let new = Binding::New.number() + binding;
-            text += &format!(
-                "@group(0) @binding({new}) var<storage, read_write> new_{binding}: array<f32>;\n"
-            );
+            let (space, what) = kind("read_write");
+            let number = Binding::New.number() + binding;
+            text += &format!("@group(0) @binding({number}) var{space} new_{binding}: {what};\n");
         }
     }
     text
@@ -69,7 +75,15 @@ fn keep(layout: &Layout) -> String {
         String::from("\nfn keep(x: u32, y: u32, z: u32, post: array<f32, 19>) {\n") + HERE;
     for a in 0..Q {
         let (binding, start) = layout.direction(a);
-        text += &format!("    new_{binding}[{start}u + (x0 + y0 + z0)] = post[{a}];\n");
+        text += &match layout.store {
+            Store::Buffers => {
+                format!("    new_{binding}[{start}u + (x0 + y0 + z0)] = post[{a}];\n")
+            }
+            Store::Textures => format!(
+                "    textureStore(new_{binding}, vec3<u32>(x0, y0, {start}u + z0), \
+                 vec4<f32>(post[{a}], 0.0, 0.0, 0.0));\n"
+            ),
+        };
     }
     text + "}\n"
 }
@@ -121,7 +135,8 @@ pub(super) fn faces(domain: &Domain, layout: &Layout, walls_move: bool, writes: 
     text + "    return h;\n}\n"
 }
 
-/// Parts of the place of a cell, which add up to its number.
+/// Parts of the place of a cell: in a buffer they add up to its number, in a texture they are its
+/// coordinates.
 const HERE: &str = "    let x0 = x;
     let y0 = STEP_Y * y;
     let z0 = STEP_Z * z;
@@ -175,7 +190,12 @@ fn coordinate(axis: usize, c: i32) -> String {
 /// Population `a` of the cell whose place has these parts.
 fn old(layout: &Layout, a: usize, [x, y, z]: &[&str; 3]) -> String {
     let (binding, start) = layout.direction(a);
-    format!("old_{binding}[{start}u + ({x} + {y} + {z})]")
+    match layout.store {
+        Store::Buffers => format!("old_{binding}[{start}u + ({x} + {y} + {z})]"),
+        Store::Textures => {
+            format!("textureLoad(old_{binding}, vec3<u32>({x}, {y}, {start}u + {z})).x")
+        }
+    }
 }
 
 /// The sets of axes along which direction `a` can cross a face, the larger first.

@@ -8,8 +8,9 @@ use super::buffers::Growing;
 use super::coverage::Tables;
 use super::device::Gpu;
 use super::error::KernelError;
-use super::layout::WORD;
+use super::layout::{Store, WORD};
 use super::numbers::{count, single};
+use super::table::Table;
 
 /// What the device holds of the touches of all solids; row 0 is that of none.
 #[derive(Debug)]
@@ -19,13 +20,13 @@ pub(super) struct Touches {
     /// Number of touches of each solid.
     pub(super) counts: Growing,
     /// For each touch its cell, counted from 1, and the bits of the arm from the solid's centre.
-    pub(super) shares: Growing,
+    pub(super) shares: Table,
     /// For each touch the record of its cell.
     pub(super) links: Growing,
     /// For each touch `B_s`.
     pub(super) weights: Growing,
     /// Momentum and density of each covered cell before its collision, by records.
-    pub(super) moments: Growing,
+    pub(super) moments: Table,
     /// Where the touches of each solid stand.
     room: Vec<Room>,
 }
@@ -109,15 +110,16 @@ fn whole(number: f64) -> u32 {
 }
 
 impl Touches {
-    pub(super) fn new(gpu: &Gpu) -> Result<Self, KernelError> {
+    pub(super) fn new(gpu: &Gpu, store: Store) -> Result<Self, KernelError> {
         let buffer = |label| Growing::new(gpu, label);
+        let table = |label| Table::new(gpu, store, label, 4);
         Ok(Touches {
             solids: buffer("motion of solids")?,
             counts: buffer("numbers of touches")?,
-            shares: buffer("cells and arms of touches")?,
+            shares: table("cells and arms of touches")?,
             links: buffer("records of touches")?,
             weights: buffer("weights of touches")?,
-            moments: buffer("moments of covered cells")?,
+            moments: table("moments of covered cells")?,
             room: Vec::new(),
         })
     }
@@ -142,8 +144,8 @@ impl Touches {
         rows: usize,
         solids: usize,
     ) -> Result<(), KernelError> {
-        self.shares.reserve(gpu, 16 * rows as u64)?;
-        self.moments.reserve(gpu, 16 * rows as u64)?;
+        self.shares.reserve(gpu, rows)?;
+        self.moments.reserve(gpu, rows)?;
         self.links.reserve(gpu, 4 * rows as u64)?;
         self.weights.reserve(gpu, 4 * rows as u64)?;
         self.counts.reserve(gpu, 4 * solids as u64)
@@ -151,7 +153,7 @@ impl Touches {
 
     /// Uploads the touches of solids that stay where they are.
     pub(super) fn fill(&mut self, gpu: &Gpu, tables: &Tables) -> Result<(), KernelError> {
-        self.moments.reserve(gpu, 16 * tables.shares.len() as u64)?;
+        self.moments.reserve(gpu, tables.shares.len())?;
         self.shares.fill(gpu, &tables.shares)?;
         self.links.fill(gpu, &tables.links)?;
         self.weights.fill(gpu, &tables.weights)?;

@@ -394,7 +394,7 @@ fn adapter_for_the_oracle_is_an_error() {
 }
 
 fn box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available() {
-    let gpu = psmrt::kernel::Gpu::open_with_bindings_of(1 << 16).unwrap();
+    let gpu = psmrt::kernel::Gpu::open_like_hardware(1 << 16).unwrap();
     // One direction of 32³ cells needs 128 KiB and a little, a binding has 64.
     let scene = scene(RUNAWAY, &["domain.cells=[32,32,32]"]);
     let message = open(EngineName::Wgpu, &scene, Some(&gpu), false).unwrap_err().to_string();

@@ -57,7 +57,7 @@ fn cells_one_at_a_time_and_populations_over_two_bindings_give_the_same() {
     let mut budget = Budget::kernel(400_000);
     let mut random = Random(4);
     // A device of its own: 16 directions of 12³ cells to a binding, three in the next.
-    let gpu = Gpu::open_with_bindings_of(140_000).unwrap();
+    let gpu = Gpu::open_like_hardware(140_000).unwrap();
     for (name, setup) in scenes() {
         let start = waves(&mut random, &setup.domain);
         let mut both = Both::on(EngineName::Wgpu, Some(&gpu), &setup, &start);

@@ -14,8 +14,6 @@
 // The touch of the same cell that came before, 0 for none. In which order they come is left to chance;
 // resolve.wgsl brings them into that of their numbers.
 @group(0) @binding(BIND_Links) var<storage, read_write> links: array<u32>;
-// Cell, counted from 1, of each touch and the bits of the arm to it.
-@group(0) @binding(BIND_Shares) var<storage, read_write> shares: array<vec4<u32>>;
 
 // Low corner of the lowest cell against the centre.
 fn low_corner(solid: Solid) -> vec3<f32> {
@@ -120,6 +118,6 @@ fn touch(
         }
         touches[name] = vec2<u32>(bitcast<u32>(fraction), number);
         links[name] = before;
-        shares[name] = vec4<u32>(place, bitcast<vec3<u32>>(arm));
+        keep_shares(name, vec4<u32>(place, bitcast<vec3<u32>>(arm)));
     }
 }

@@ -6,12 +6,6 @@
 // cells that it covers), each invocation every LANES-th, then a tree. The order of the sums depends on
 // nothing but where the solid is, so that two runs give the same bits.
 
-const LANES = 64u;
-
-// Cell, counted from 1, of each touch and the bits of the arm to it
-@group(0) @binding(BIND_Shares) var<storage, read> shares: array<vec4<u32>>;
-// j and ρ - 1 of each covered cell, by records
-@group(0) @binding(BIND_Moments) var<storage, read> moments: array<vec4<f32>>;
 // B_s of each touch
 @group(0) @binding(BIND_Weights) var<storage, read> weights: array<f32>;
 @group(0) @binding(BIND_Solids) var<storage, read> solids: array<Solid>;
@@ -40,8 +34,9 @@ fn gather(
         let motion = solids[solid];
         for (var i = lane; i < counts[solid]; i += LANES) {
             let number = motion.first + i;
-            let arm = bitcast<vec3<f32>>(shares[number].yzw);
-            let moment = moments[links[number]];
+            let arm = bitcast<vec3<f32>>(shares_at(number).yzw);
+            // j and ρ - 1 of the cell
+            let moment = bitcast<vec4<f32>>(moments_at(links[number]));
             // u_s = U + ω × r
             let u = motion.velocity + cross(motion.spin, arm);
             // F = Σ B_s (j - ρ u_s),  T = Σ r × F

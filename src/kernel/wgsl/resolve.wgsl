@@ -4,10 +4,6 @@
 @group(0) @binding(BIND_Counts) var<storage, read> counts: array<u32>;
 @group(0) @binding(BIND_Slots) var<storage, read_write> slots: array<u32>;
 @group(0) @binding(BIND_Touches) var<storage, read> touches: array<vec2<u32>>;
-// Cell, counted from 1, of each touch and the bits of the arm to it.
-@group(0) @binding(BIND_Shares) var<storage, read> shares: array<vec4<u32>>;
-// (B, Σ B_s u_s) of each covered cell.
-@group(0) @binding(BIND_Records) var<storage, read_write> records: array<vec4<f32>>;
 // The touch of the same cell that came before; from here on the record of the cell.
 @group(0) @binding(BIND_Links) var<storage, read_write> links: array<u32>;
 // B_s of each touch.
@@ -48,7 +44,7 @@ fn uncover(
     let first = solids[number].first;
     let count = counts[number];
     for (var i = lane + 64u * group.y; i < count; i += 64u * PARTS) {
-        let place = shares[first + i].x;
+        let place = shares_at(first + i).x;
         if (place > 0u) {
             slots[place - 1u] = 0u;
         }
@@ -70,7 +66,7 @@ fn resolve(
     let count = counts[number];
     for (var i = lane + 64u * group.y; i < count; i += 64u * PARTS) {
         let name = first + i;
-        let share = shares[name];
+        let share = shares_at(name);
         if (share.x == 0u) {
             weights[name] = 0.0;
             links[name] = 0u;
@@ -81,7 +77,7 @@ fn resolve(
                 let u = velocity + cross(spin, bitcast<vec3<f32>>(share.yzw));
                 weights[name] = b;
                 links[name] = name;
-                records[name] = vec4<f32>(b, b * u);
+                keep_records(name, bitcast<vec4<u32>>(vec4<f32>(b, b * u)));
                 // Only where the step of all cells has no solids in it is the list used.
 //#if LISTED
                 single[atomicAdd(&found[0], 1u)] = share.x - 1u;
@@ -96,7 +92,7 @@ fn resolve(
 // u_s = U + ω × r of a touch.
 fn velocity_of(name: u32) -> vec3<f32> {
     let solid = touches[name].y;
-    let arm = bitcast<vec3<f32>>(shares[name].yzw);
+    let arm = bitcast<vec3<f32>>(shares_at(name).yzw);
     return solids[solid].velocity + cross(solids[solid].spin, arm);
 }
 
@@ -129,7 +125,7 @@ fn meeting(head: u32, cell: u32) {
     let b = weight_of(epsilon);
     let factor = b / epsilon;
     let mean = velocity / epsilon;
-    records[head] = vec4<f32>(b, factor * velocity);
+    keep_records(head, bitcast<vec4<u32>>(vec4<f32>(b, factor * velocity)));
     let row = atomicAdd(&found[1], 1u);
     shared_by_many[row] = cell;
     excess[2u * row] = vec4<f32>(factor * (square - velocity * mean), 0.0);

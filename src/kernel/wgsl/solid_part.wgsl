@@ -22,16 +22,30 @@ struct SolidPart {
 
 //#if SLOTS
 // Per cell the number of its record, or 0.
+//#if MOVING
+@group(0) @binding(BIND_Slots) var<storage, read> slots: array<u32>;
+
+fn slot_of(x: u32, y: u32, z: u32) -> u32 {
+    return slots[x + NX * (y + NY * z)];
+}
+//#else
+//#if TEXTURES
+@group(0) @binding(BIND_Slots) var slots: texture_storage_3d<r32uint, read>;
+
+fn slot_of(x: u32, y: u32, z: u32) -> u32 {
+    return textureLoad(slots, vec3<u32>(x, y, z)).x;
+}
+//#else
 @group(0) @binding(BIND_Slots) var<storage, read> slots: array<u32>;
 
 fn slot_of(x: u32, y: u32, z: u32) -> u32 {
     return slots[x + STEP_Y * y + STEP_Z * z];
 }
 //#end
+//#end
+//#end
 
 //#if MOVING
-// (B, Σ B_s u_s) of each covered cell; record number 0 is that of a cell without solids.
-@group(0) @binding(BIND_Records) var<storage, read> records: array<vec4<f32>>;
 //#if MANY
 // Of the first listed cells, in which several solids meet: what Σ B_s u_s u_s is above that of one solid
 // with the mean velocity (xx, yy, zz, 0), (xy, yz, xz, 0).
@@ -39,7 +53,8 @@ fn slot_of(x: u32, y: u32, z: u32) -> u32 {
 //#end
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
-    let record = records[slot_of(x, y, z)];
+    // (B, Σ B_s u_s); record number 0 is that of a cell without solids.
+    let record = bitcast<vec4<f32>>(records_at(slot_of(x, y, z)));
     let b = record.x;
     let u = record.yzw;
     // ū = Σ B_s u_s / B
@@ -70,9 +85,17 @@ fn solid_part_of_listed(number: u32, x: u32, y: u32, z: u32) -> SolidPart {
 //#end
 //#else
 // B of each cell.
+//#if TEXTURES
+@group(0) @binding(BIND_CellWeights) var weights: texture_storage_3d<r32float, read>;
+
+fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
+    return SolidPart(textureLoad(weights, vec3<u32>(x, y, z)).x);
+}
+//#else
 @group(0) @binding(BIND_CellWeights) var<storage, read> weights: array<f32>;
 
 fn solid_part(x: u32, y: u32, z: u32) -> SolidPart {
     return SolidPart(weights[x + STEP_Y * y + STEP_Z * z]);
 }
+//#end
 //#end
