@@ -79,7 +79,7 @@ pub struct Case {
     /// Runs its scenes, at the quick scale or at the bench's full one. Errors if one cannot be run or
     /// does not become steady.
     pub measure: fn(&mut Bench) -> Result<Table, CaseError>,
-    /// What is claimed of the rows that were measured, both engines' together.
+    /// What is claimed of the rows that were measured, all engines' together.
     pub judge: fn(&Golden, &Table) -> Result<Vec<Claim>, CaseError>,
     /// The figures.
     pub draw: fn(&Golden, &Table) -> Result<Vec<Figure>, CaseError>,
