@@ -10,7 +10,9 @@ use bytemuck::Pod;
 use pulp::Simd;
 
 /// A real number in single or double precision.
-pub trait Real: Pod + PartialEq + Default + Send + Sync + std::fmt::Debug + 'static {
+pub trait Real:
+    Pod + Add<Output = Self> + PartialEq + Default + Send + Sync + std::fmt::Debug + 'static
+{
     /// The vectors of these numbers.
     type Lanes<S: Simd>: Lanes<Real = Self, Token = S>;
 
@@ -22,9 +24,6 @@ pub trait Real: Pod + PartialEq + Default + Send + Sync + std::fmt::Debug + 'sta
 
     /// The same number in double precision.
     fn to_f64(self) -> f64;
-
-    /// The sum, rounded.
-    fn plus(self, other: Self) -> Self;
 }
 
 /// A vector of numbers, one for each of several cells.
@@ -206,11 +205,6 @@ macro_rules! lanes {
             #[inline(always)]
             fn to_f64(self) -> f64 {
                 self.into()
-            }
-
-            #[inline(always)]
-            fn plus(self, other: Self) -> Self {
-                self + other
             }
         }
     };

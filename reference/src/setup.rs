@@ -1,13 +1,13 @@
 //! What a solver is set up with, and the checks that it makes sense.
 
 use crate::collision::Collision;
-use crate::coverage::CoverageRule;
+use crate::coverage::{CoverageRule, SMALLEST_LINEAR_RADIUS};
 use crate::domain::{Domain, DomainError};
 use crate::guard::GuardSettings;
 use crate::lattice::Vec3;
 use crate::partial_saturation::{SolidOperator, Weighting};
 use crate::rates::RateError;
-use crate::solids::{Solid, SolidError};
+use crate::solids::{Shape, Solid, SolidError};
 use thiserror::Error;
 
 /// The solids of a set-up and how they act on the fluid.
@@ -60,6 +60,17 @@ pub enum SetupError {
     /// Sub-sampling with no points.
     #[error("coverage sampling with n = 0 points: take n from 1 up, or the exact rule")]
     NoSamples,
+    /// A sphere too small for the linear rule.
+    #[error(
+        "the linear rule of coverage is meant for spheres of a radius of at least {SMALLEST_LINEAR_RADIUS} cell; solid \
+         {solid} has {radius}: refine the grid, or take the exact rule"
+    )]
+    TooSmallForLinear {
+        /// The number of the solid.
+        solid: usize,
+        /// Its radius in cells.
+        radius: f64,
+    },
 }
 
 impl Setup {
@@ -96,11 +107,28 @@ impl Setup {
             for (number, solid) in phase.solids.iter().enumerate() {
                 solid.check(number, self.domain.cell_count())?;
             }
-            if phase.coverage == (CoverageRule::Sampled { n: 0 }) {
-                return Err(SetupError::NoSamples);
-            }
+            check_coverage(phase)?;
         }
         Ok(())
+    }
+}
+
+/// Errors unless the rule of coverage is meant for these solids.
+fn check_coverage(phase: &SolidPhase) -> Result<(), SetupError> {
+    match phase.coverage {
+        CoverageRule::Exact | CoverageRule::Sampled { n: 1.. } => Ok(()),
+        CoverageRule::Sampled { n: 0 } => Err(SetupError::NoSamples),
+        CoverageRule::Linear => {
+            for (solid, Solid { shape, .. }) in phase.solids.iter().enumerate() {
+                match shape {
+                    &Shape::Sphere { radius } if radius < SMALLEST_LINEAR_RADIUS => {
+                        return Err(SetupError::TooSmallForLinear { solid, radius });
+                    }
+                    Shape::Sphere { .. } | Shape::Cells { .. } => {}
+                }
+            }
+            Ok(())
+        }
     }
 }
 

@@ -25,7 +25,7 @@ use crate::engine::EngineName;
 use crate::kernel::adapters;
 use crate::output::atomic;
 use crate::quote;
-use crate::scene::{EngineKind, Scene};
+use crate::scene::Scene;
 use crate::table::TableError;
 
 /// What `psmrt plan` is asked for.
@@ -97,6 +97,13 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
         .map_err(|why| CommandError::Usage(format!("{name} cannot be planned: {why}")))?;
     let wanted = request.error.0;
     let models = Models::committed()?;
+    // Whether there is anything to plan with is known before an engine has made a step.
+    let unmeasured: Vec<Speed> =
+        offered(&scene).into_iter().map(|engine| Speed { engine, mrt: 1.0, srt: 1.0 }).collect();
+    if options(&facts, models, &unmeasured).is_empty() {
+        let now = now(&scene, &facts, models, &unmeasured);
+        return Err(unreachable_error(&[], wanted, (&facts, models), &now));
+    }
     let speeds = speeds(&scene, request)?;
     let now = now(&scene, &facts, models, &speeds);
     if matches!(facts.limit, Limit::Grains { .. }) && wanted < LEAST_ERROR {
@@ -144,7 +151,7 @@ fn now(
     let none = |why: &str| Outside { why: why.to_owned(), nearest: None, may_be_worse: true };
     let collision = Preset::of(&scene.setup.collision)
         .ok_or_else(|| none("no run of the evidence has its relaxation rates"))?;
-    let engine = EngineName::of(scene).unwrap_or(EngineName::Reference).word();
+    let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision));
     let speed = speeds.iter().find(|speed| speed.engine == engine);
     as_it_is(facts, models, collision, speed.ok_or_else(|| none("its engine is not there"))?)
 }
@@ -163,14 +170,22 @@ fn now_words(now: &Result<PlanOption, Outside>) -> String {
     }
 }
 
-/// The engines that may be proposed, with their speed on this scene and machine: the oracle, and the
-/// kernel on a GPU in hardware or where the scene asks for it.
+/// The engines that may be proposed: the CPU engine, the kernel on a GPU in hardware, and whatever the scene asks for.
+fn offered(scene: &Scene) -> Vec<EngineName> {
+    let mut offered = vec![EngineName::cpu(scene.precision)];
+    if adapters().iter().any(|adapter| !adapter.is_software()) {
+        offered.push(EngineName::Wgpu);
+    }
+    offered.extend(EngineName::of(scene).filter(|own| !offered.contains(own)));
+    offered
+}
+
+/// Their speed on this scene and machine.
 fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandError> {
-    let kernel = scene.engine == EngineKind::Wgpu || adapters().iter().any(|a| !a.is_software());
     let mut speeds = Vec::new();
-    for kind in ["reference", "wgpu"].into_iter().take(1 + usize::from(kernel)) {
+    for name in offered(scene) {
         let mut set = request.set.clone();
-        set.extend(engine_changes(Some(kind), None)?);
+        set.extend(engine_changes(Some(name.word()), None)?);
         let scene = Scene::load(&request.scene, &set)?;
         let mut engine = engine(&scene, &request.scene, false)?;
         let Some(pace) = calibrate(&scene, &mut engine, CALIBRATION) else {
@@ -180,13 +195,13 @@ fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandErr
         };
         let per_second = pace.updates_per_second;
         let is_srt = Preset::of(&scene.setup.collision) == Some(Preset::Srt);
-        let ratio = mrt_over_srt(kind)?;
+        let ratio = mrt_over_srt(name)?;
         let (srt, mrt) = if is_srt {
             (1.0 / per_second, ratio / per_second)
         } else {
             (1.0 / per_second / ratio, 1.0 / per_second)
         };
-        speeds.push(Speed { engine: kind.to_owned(), mrt, srt });
+        speeds.push(Speed { engine: name, mrt, srt });
     }
     Ok(speeds)
 }

@@ -18,7 +18,7 @@ pub(super) fn words(option: &PlanOption) -> String {
         option.resolution,
         option.tau,
         option.collision.title(),
-        option.engine
+        option.engine.word()
     )
 }
 
@@ -26,7 +26,7 @@ pub(super) fn words(option: &PlanOption) -> String {
 pub(super) fn to_json(option: &PlanOption) -> Value {
     json!({
         "cells": option.cells, "dx_m": option.si_dx, "resolution": option.resolution, "tau": option.tau,
-        "collision": option.collision.word(), "engine": option.engine, "lattice_velocity": option.velocity,
+        "collision": option.collision.word(), "engine": option.engine.word(), "lattice_velocity": option.velocity,
         "steps": option.steps, "error": option.error, "band": option.band, "seconds": option.seconds,
     })
 }
@@ -58,7 +58,7 @@ pub(super) fn print(
             option.resolution,
             option.tau,
             option.collision.title(),
-            option.engine,
+            option.engine.word(),
             percent(option.error),
             format!("{} to {}", percent(option.band[0]), percent(option.band[1])),
             duration(option.seconds)

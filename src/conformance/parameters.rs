@@ -119,6 +119,7 @@ fn operator_name(operator: SolidOperator) -> &'static str {
     match operator {
         SolidOperator::NonEquilibriumBounceBack => "non_equilibrium_bounce_back",
         SolidOperator::Superposition => "superposition",
+        SolidOperator::FullBounceBack => "full_bounce_back",
     }
 }
 
@@ -126,6 +127,7 @@ fn weighting_name(weighting: Weighting) -> &'static str {
     match weighting {
         Weighting::SolidFraction => "solid_fraction",
         Weighting::NobleTorczynski => "noble_torczynski",
+        Weighting::Viscous => "viscous",
     }
 }
 

@@ -9,7 +9,7 @@
 use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
+use psmrt_reference::partial_saturation::{SolidOperator, VISCOUS_FACTOR, Weighting};
 use psmrt_reference::rates::Rates;
 
 use crate::lanes::Lanes;
@@ -195,6 +195,19 @@ impl Rules {
         Rules { rates, body_force, operator, weighting }
     }
 
+    /// Whether the solid's part is quadratic in its velocity.
+    pub(super) fn has_squares(&self) -> bool {
+        self.operator != SolidOperator::FullBounceBack
+    }
+
+    /// What the solid takes of the momentum, over `B (j - ρ u_s)`.
+    pub(super) fn gain(&self) -> f64 {
+        match self.operator {
+            SolidOperator::NonEquilibriumBounceBack | SolidOperator::Superposition => 1.0,
+            SolidOperator::FullBounceBack => 2.0,
+        }
+    }
+
     /// The weight `B` of a cell of total solid fraction `epsilon`.
     pub(super) fn weight_of(&self, epsilon: f64) -> f64 {
         match self.weighting {
@@ -202,6 +215,10 @@ impl Rules {
             Weighting::NobleTorczynski => {
                 let excess = self.rates.tau() - 0.5;
                 epsilon * excess / ((1.0 - epsilon) + excess)
+            }
+            Weighting::Viscous => {
+                let solid = VISCOUS_FACTOR * epsilon * (self.rates.tau() - 0.5);
+                solid / ((1.0 - epsilon) + solid)
             }
         }
     }
@@ -235,8 +252,9 @@ pub(super) struct Collider<V> {
     drive: [V; 9],
     force: Option<[V; 3]>,
     excess: V,
-    is_superposed: bool,
-    is_noble: bool,
+    viscous_excess: V,
+    operator: SolidOperator,
+    weighting: Weighting,
 }
 
 /// The squared lengths of the rows of `M` of e, eps, 3pxx, 3pixx, pww, piww, pxy, q, m.
@@ -275,8 +293,9 @@ impl<V: Lanes> Collider<V> {
             drive: per_row(|s| 1.0 - 0.5 * s),
             force: rules.body_force.map(|g| [all(g.x), all(g.y), all(g.z)]),
             excess: all(rules.rates.tau() - 0.5),
-            is_superposed: rules.operator == SolidOperator::Superposition,
-            is_noble: rules.weighting == Weighting::NobleTorczynski,
+            viscous_excess: all(VISCOUS_FACTOR * (rules.rates.tau() - 0.5)),
+            operator: rules.operator,
+            weighting: rules.weighting,
         }
     }
 
@@ -287,44 +306,48 @@ impl<V: Lanes> Collider<V> {
         self.fluid_change(&cell).added_to(f)
     }
 
-    /// Post-collision populations of cells of which solids fill `epsilon` in all, with the mean velocity of these
-    /// solids, by what each fills; and what loads are made of: density less 1 and momentum before the collision, and the
-    /// weight per solid fraction, `B/Σ ε_s`.
+    /// Post-collision populations of cells of which solids fill `epsilon` in all, with the sum of their velocities,
+    /// each times what it fills (`None` if all are at rest); and what loads are made of: density less 1 and momentum
+    /// before the collision, and the weight per solid fraction, `B/Σ ε_s`.
     #[inline(always)]
     pub(super) fn saturated(
         &self,
         f: &[V; Q],
         epsilon: V,
-        solid_velocity: Option<[V; 3]>,
+        motion: Option<[V; 3]>,
     ) -> ([V; Q], [V; 5]) {
         let cell = self.cell(f);
+        let inverse = self.one.over(epsilon.max(self.tiny));
+        // The mean by what each fills.
+        let solid_velocity = match motion {
+            None => None,
+            Some(sum) => Some(scaled(sum, inverse)),
+        };
         let weight = self.weight_of(epsilon);
         let fluid_change = self.fluid_change(&cell);
         let solid_change = self.solid_change(&cell, &fluid_change, solid_velocity);
         // f* = f + (1 - B) Ω + B Λ
         let change = fluid_change.times_plus(self.one - weight, &solid_change.times(weight));
         let [jx, jy, jz] = cell.sums.j;
-        let share = weight.over(epsilon.max(self.tiny));
-        (change.added_to(f), [cell.sums.excess, jx, jy, jz, share])
+        (change.added_to(f), [cell.sums.excess, jx, jy, jz, weight * inverse])
     }
 
     /// `B(min(1, epsilon))`
     #[inline(always)]
     fn weight_of(&self, epsilon: V) -> V {
         let epsilon = epsilon.min(self.one);
-        if self.is_noble {
+        match self.weighting {
+            Weighting::SolidFraction => epsilon,
             // B = ε (τ - 1/2) / [(1 - ε) + (τ - 1/2)]
-            (epsilon * self.excess).over((self.one - epsilon) + self.excess)
-        } else {
-            epsilon
+            Weighting::NobleTorczynski => {
+                (epsilon * self.excess).over((self.one - epsilon) + self.excess)
+            }
+            // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)]
+            Weighting::Viscous => {
+                let solid = epsilon * self.viscous_excess;
+                solid.over((self.one - epsilon) + solid)
+            }
         }
-    }
-
-    /// The mean of which `sum` is the sum over solids, each counted with what it fills of the cell.
-    #[inline(always)]
-    pub(super) fn mean(&self, sum: [V; 3], epsilon: V) -> [V; 3] {
-        let inverse = self.one.over(epsilon.max(self.tiny));
-        scaled(sum, inverse)
     }
 
     /// Density less 1 and momentum.
@@ -507,6 +530,20 @@ impl<V: Lanes> Collider<V> {
         fluid_change: &Change<V>,
         solid_velocity: Option<[V; 3]>,
     ) -> Change<V> {
+        let (face, edge) = (self.face * cell.rho, self.edge * cell.rho);
+        if self.operator == SolidOperator::FullBounceBack {
+            // Λ_a = f_-a - f_-a^eq(u_p) + f_a^eq(u_p) - f_a, all odd in c_a: -(f_a - f_-a) + 6 w ρ c·u_p
+            let (face, edge) = (self.three * face, self.three * edge);
+            let odd = match solid_velocity {
+                None => cell.sums.odd.times(-self.one),
+                Some(u_p) => {
+                    let twice = self.along(face, edge, scaled(u_p, self.two));
+                    cell.sums.odd.times_plus(-self.one, &twice)
+                }
+            };
+            let nothing = self.one - self.one;
+            return Change { rest: nothing, even: odd.times(nothing), odd };
+        }
         let u = scaled(cell.sums.j, cell.inverse);
         let fluid = self.squares(u);
         // f_eq(u_p) - f_eq(u), what is even in c_a: w ρ [9/2 ((c·u_p)² - (c·u)²) - 3/2 (u_p² - u²)]
@@ -518,7 +555,6 @@ impl<V: Lanes> Collider<V> {
                 (solid.along.times_plus(self.four_and_half, &fluid_part), solid.all - fluid.all)
             }
         };
-        let (face, edge) = (self.face * cell.rho, self.edge * cell.rho);
         let drop = self.three * self.half * square;
         let even = Pair {
             x: face * (squares.x - drop),
@@ -533,7 +569,7 @@ impl<V: Lanes> Collider<V> {
         };
         let rest = self.rest_drop * cell.rho * square;
         let (face, edge) = (self.three * face, self.three * edge);
-        if self.is_superposed {
+        if self.operator == SolidOperator::Superposition {
             // Λ_a = f_a^eq(u_p) - f_a^eq(u) + Ω_a, Ω being what relaxes at the bare velocity
             let omega = match self.force {
                 None => *fluid_change,

@@ -8,7 +8,8 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
-use crate::ball::{cells_about, rows_of_fractions, sampled_fraction};
+use super::rigid::EIGHT;
+use crate::ball::{cells_about, rows_of_fractions};
 use crate::lanes::Real;
 
 /// A solid, or an image of it across periodic faces, with the cells that it touches in their order.
@@ -16,7 +17,7 @@ use crate::lanes::Real;
 struct Image<T> {
     /// The point that arms are measured from.
     centre: Vec3,
-    /// Solid fractions of the cells, span by span.
+    /// Solid fractions of the cells, span by span, and zeros behind them, so that there are always eight to be read.
     epsilons: Vec<T>,
     spans: Vec<Span>,
     /// Which of the spans lie in which run of cells.
@@ -46,10 +47,15 @@ pub(super) struct Part {
 pub(super) struct Row<'a, T> {
     /// The first, counted from the first of the run.
     pub(super) start: usize,
+    pub(super) count: usize,
+    /// Their solid fractions, with at least seven numbers more behind them that mean nothing.
     pub(super) epsilons: &'a [T],
     /// From the image's centre to that of the first cell.
     pub(super) arm: Vec3,
 }
+
+/// Solids that a thread takes at a time.
+const BATCH: usize = 64;
 
 /// What all solids cover.
 #[derive(Clone, Debug)]
@@ -67,7 +73,8 @@ impl<T: Real> Coverage<T> {
     /// That of `solids`, for runs of `run` cells.
     pub(super) fn new(domain: &Domain, solids: &[Solid], rule: CoverageRule, run: usize) -> Self {
         let runs = domain.cell_count().div_ceil(run);
-        let images = solids.par_iter().map(|solid| images(domain, solid, rule, run)).collect();
+        let images = |solid| images(domain, solid, rule, run, Vec::new());
+        let images = solids.par_iter().map(images).collect();
         let mut coverage = Coverage {
             run,
             images,
@@ -88,24 +95,24 @@ impl<T: Real> Coverage<T> {
         rule: CoverageRule,
     ) {
         let run = self.run;
-        let moved: Vec<(usize, Vec<Image<T>>)> = solids
-            .par_iter()
-            .enumerate()
-            .filter(|(number, solid)| before[*number].centre != solid.centre)
-            .map(|(number, solid)| (number, images(domain, solid, rule, run)))
-            .collect();
-        let others = solids.iter().zip(before).enumerate().filter(|(_, (now, then))| {
+        let has_moved = |number: usize| before[number].centre != solids[number].centre;
+        let changes_velocity = |number: usize| {
+            let (now, then) = (&solids[number], &before[number]);
             now.velocity != then.velocity || now.angular_velocity != then.angular_velocity
-        });
-        for (number, _) in others {
+        };
+        for number in (0..solids.len()).filter(|&n| has_moved(n) || changes_velocity(n)) {
             self.mark(number);
         }
+        let numbered = self.images.par_iter_mut().with_min_len(BATCH).enumerate();
+        numbered.filter(|(number, _)| has_moved(*number)).for_each(|(number, of_solid)| {
+            let old = std::mem::take(of_solid);
+            *of_solid = images(domain, &solids[number], rule, run, old);
+        });
+        let moved: Vec<usize> = (0..solids.len()).filter(|&number| has_moved(number)).collect();
         if moved.is_empty() {
             return;
         }
-        for (number, images) in moved {
-            self.mark(number);
-            self.images[number] = images;
+        for number in moved {
             self.mark(number);
         }
         self.sort();
@@ -155,38 +162,65 @@ impl<T: Real> Coverage<T> {
             let (start, count) = (span.start as usize, span.count as usize);
             Row {
                 start: span.cell as usize - first,
-                epsilons: &image.epsilons[start..start + count],
+                count,
+                epsilons: &image.epsilons[start..],
                 arm: Vec3::from(span.at.map(|x| f64::from(x) + 0.5)) - image.centre,
             }
         })
     }
 }
 
-/// A solid and its images, each with what it touches.
+/// A solid and its images, each with what it touches, in the memory of old ones.
 fn images<T: Real>(
     domain: &Domain,
     solid: &Solid,
     rule: CoverageRule,
     run: usize,
+    mut old: Vec<Image<T>>,
 ) -> Vec<Image<T>> {
+    let mut images = Vec::with_capacity(old.len());
     match &solid.shape {
         Shape::Cells { fractions } => {
             let mut touches: Vec<(usize, f64)> =
                 fractions.iter().filter(|(_, epsilon)| *epsilon > 0.0).copied().collect();
             touches.sort_by_key(|&(cell, _)| cell);
-            let mut image = Image::empty(solid.centre);
+            let mut image = Image::empty(solid.centre, old.pop());
             for (cell, epsilon) in touches {
                 image.extend(domain, run, domain.coordinates(cell), &[epsilon]);
             }
-            vec![image]
+            images.extend(image.finished());
         }
-        Shape::Sphere { radius } => images_of_sphere(domain, solid.centre, *radius, rule, run),
+        Shape::Sphere { radius } => {
+            in_images(domain, solid.centre, *radius, |centre, cells| {
+                let mut image = Image::empty(centre, old.pop());
+                rows_of_fractions(rule, centre.into(), *radius, cells, |at, epsilons| {
+                    // All of them are cells of the domain.
+                    let at = at.map(|x| usize::try_from(x).unwrap_or_default());
+                    image.extend(domain, run, at, epsilons);
+                });
+                images.extend(image.finished());
+            });
+        }
     }
+    images
 }
 
 impl<T: Real> Image<T> {
-    fn empty(centre: Vec3) -> Self {
-        Image { centre, epsilons: Vec::new(), spans: Vec::new(), runs: Vec::new() }
+    /// One that touches nothing, in the memory of an old one.
+    fn empty(centre: Vec3, old: Option<Self>) -> Self {
+        let Some(Image { mut epsilons, mut spans, mut runs, .. }) = old else {
+            return Image { centre, epsilons: Vec::new(), spans: Vec::new(), runs: Vec::new() };
+        };
+        epsilons.clear();
+        spans.clear();
+        runs.clear();
+        Image { centre, epsilons, spans, runs }
+    }
+
+    /// The image, if it touches a cell.
+    fn finished(mut self) -> Option<Self> {
+        self.epsilons.extend([T::default(); EIGHT]);
+        (!self.spans.is_empty()).then_some(self)
     }
 
     /// Adds cells of a row from `at` on, which come after all others.
@@ -214,64 +248,32 @@ fn number(value: usize) -> u32 {
     u32::try_from(value).unwrap_or(u32::MAX)
 }
 
-/// The images of a sphere that reach into the domain.
-fn images_of_sphere<T: Real>(
+/// Calls `visit` with the centre of each image of a sphere that reaches into the domain, and the cells about it there.
+fn in_images(
     domain: &Domain,
     centre: Vec3,
     radius: f64,
-    rule: CoverageRule,
-    run: usize,
-) -> Vec<Image<T>> {
+    mut visit: impl FnMut(Vec3, &[RangeInclusive<i64>; 3]),
+) {
     let ranges = cells_about(centre.into(), radius);
-    // Along each axis the stretches of cells between faces, with how far they are from the domain.
-    let stretches: [Vec<(i64, RangeInclusive<i64>)>; 3] = std::array::from_fn(|axis| {
-        let n = i64::try_from(domain.cells()[axis]).unwrap_or(i64::MAX);
-        let (first, last) = (*ranges[axis].start(), *ranges[axis].end());
-        let turns =
-            if domain.is_periodic(axis) { first.div_euclid(n)..=last.div_euclid(n) } else { 0..=0 };
-        let stretch = |turn: i64| {
-            let offset = turn * n;
-            (offset, (first - offset).max(0)..=(last - offset).min(n - 1))
-        };
-        turns.map(stretch).filter(|(_, cells)| !cells.is_empty()).collect()
+    let extents = domain.cells().map(|n| i64::try_from(n).unwrap_or(i64::MAX));
+    // How often, along each axis, the domain is repeated between the origin and the cells.
+    let turns = [0, 1, 2].map(|axis| {
+        let [first, last] = [ranges[axis].start(), ranges[axis].end()]
+            .map(|cell| if domain.is_periodic(axis) { cell.div_euclid(extents[axis]) } else { 0 });
+        first..=last
     });
-    let mut images = Vec::new();
-    for (oz, z) in &stretches[2] {
-        for (oy, y) in &stretches[1] {
-            for (ox, x) in &stretches[0] {
-                let centre = centre - Vec3::new(*ox as f64, *oy as f64, *oz as f64);
-                let mut image = Image::empty(centre);
-                let cells = [x, y, z].map(Clone::clone);
-                let mut tell = |at: [i64; 3], epsilons: &[f64]| {
-                    // All of them are cells of the domain.
-                    let at = at.map(|x| usize::try_from(x).unwrap_or_default());
-                    image.extend(domain, run, at, epsilons);
-                };
-                match rule {
-                    CoverageRule::Exact => {
-                        rows_of_fractions(centre.into(), radius, &cells, &mut tell);
-                    }
-                    CoverageRule::Sampled { n } => {
-                        for z in z.clone() {
-                            for y in y.clone() {
-                                for x in x.clone() {
-                                    let from =
-                                        Vec3::new(x as f64, y as f64, z as f64).add_scalar(0.5);
-                                    let epsilon =
-                                        sampled_fraction((centre - from).into(), radius, n);
-                                    if epsilon > 0.0 {
-                                        tell([x, y, z], &[epsilon]);
-                                    }
-                                }
-                            }
-                        }
-                    }
-                }
-                if !image.spans.is_empty() {
-                    images.push(image);
-                }
+    let [along_x, along_y, along_z] = turns;
+    for z in along_z {
+        for y in along_y.clone() {
+            for x in along_x.clone() {
+                let offset = [x * extents[0], y * extents[1], z * extents[2]];
+                let cells = [0, 1, 2].map(|axis| {
+                    let [first, last] = [ranges[axis].start(), ranges[axis].end()];
+                    (first - offset[axis]).max(0)..=(last - offset[axis]).min(extents[axis] - 1)
+                });
+                visit(centre - Vec3::from(offset.map(|cells| cells as f64)), &cells);
             }
         }
     }
-    images
 }

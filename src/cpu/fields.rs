@@ -1,19 +1,23 @@
-//! What solids cover of one run of cells, as fields that a pass can read vector by vector; and, after the pass, what
-//! the fluid has given to each of them.
+//! What solids cover of one run of cells, as fields that a pass can read vector by vector.
+
+use std::ops::Range;
 
 use psmrt_reference::directions::{C, OPPOSITE, Q};
-use psmrt_reference::lattice::Vec3;
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::Solid;
+use pulp::{Simd, WithSimd};
 
 use super::collision::{Rules, weight};
-use super::coverage::{Coverage, Part};
+use super::coverage::Coverage;
+use super::rigid::{Along, EIGHT, Rigid};
 use crate::lanes::Real;
 
-/// Cells that are told apart together: if one of them is covered, all are collided as if they were. A multiple of
-/// the lanes of every vector, so that results do not depend on their number.
-pub(super) const BLOCK: usize = 16;
+/// Cells that are told apart together: if one of them is covered, all are collided as if they were. (Where a cell is
+/// not, that makes no difference: the weight of the solid's part is 0, that of the fluid's 1.)
+const BLOCK: usize = 8;
 
 /// Sums over the solids in each cell of a run.
+///
+/// Behind the last cell of a run there is room for eight more: what is done to a row is done to eight cells at a time.
 #[derive(Clone, Debug)]
 pub(super) struct Fields<T> {
     /// `Σ ε_s`
@@ -22,7 +26,7 @@ pub(super) struct Fields<T> {
     motion: [Vec<T>; 3],
     has_motion: bool,
     /// For each block, whether solids cover some of it.
-    pub(super) covered: Vec<bool>,
+    covered: Vec<bool>,
     meetings: Vec<Meeting>,
     /// For each cell the number of its meeting, after one of none; empty until solids meet.
     meeting_of: Vec<u32>,
@@ -42,18 +46,26 @@ pub(super) struct Seen<T> {
     pub(super) of: [Vec<T>; 5],
 }
 
-/// What one solid has received in one run.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Received {
-    pub(super) solid: usize,
-    pub(super) load: Load,
-    /// `Σ B_s`
-    pub(super) displaced: f64,
+/// [`Fields::add`], to be dispatched.
+pub(super) struct Adding<'a, T> {
+    pub(super) fields: &'a mut Fields<T>,
+    pub(super) of: (&'a Coverage<T>, &'a [Solid]),
+    pub(super) run: usize,
+    pub(super) first: usize,
+}
+
+impl<T: Real> WithSimd for Adding<'_, T> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.fields.add(self.of, self.run, self.first);
+    }
 }
 
 impl<T: Real> Seen<T> {
     pub(super) fn new(cells: usize) -> Self {
-        Seen { of: std::array::from_fn(|_| vec![T::default(); cells]) }
+        Seen { of: std::array::from_fn(|_| vec![T::default(); cells + EIGHT]) }
     }
 }
 
@@ -61,7 +73,7 @@ impl<T: Real> Fields<T> {
     /// Those of a run without solids.
     pub(super) fn new(cells: usize) -> Self {
         Fields {
-            epsilon: vec![T::default(); cells],
+            epsilon: vec![T::default(); cells + EIGHT],
             motion: Default::default(),
             has_motion: false,
             covered: vec![false; cells.div_ceil(BLOCK)],
@@ -70,79 +82,118 @@ impl<T: Real> Fields<T> {
         }
     }
 
+    /// Whether solids cover some of the blocks in which `count` cells from `at` on lie.
+    #[inline(always)]
+    pub(super) fn is_covered(&self, at: usize, count: usize) -> bool {
+        let (first, last) = (at / BLOCK, (at + count - 1) / BLOCK);
+        self.covered[first] || (last > first && self.covered[last])
+    }
+
     /// `Σ ε_s u_s`, if any of the solids has a velocity.
     pub(super) fn motion(&self) -> Option<[&[T]; 3]> {
         self.has_motion.then(|| self.motion.each_ref().map(Vec::as_slice))
     }
 
     /// Adds what the solids cover of run number `run`, the first cell of which is `first`.
+    #[inline(always)]
     pub(super) fn add(
         &mut self,
-        coverage: &Coverage<T>,
-        solids: &[Solid],
+        (coverage, solids): (&Coverage<T>, &[Solid]),
         run: usize,
         first: usize,
     ) {
         let parts = coverage.parts(run);
         self.has_motion = parts.iter().any(|part| solids[part.solid].has_velocity());
-        let mut meets = false;
-        for part in parts {
-            for row in coverage.rows(part, first) {
-                let cells = row.start..row.start + row.epsilons.len();
-                self.covered[cells.start / BLOCK..=(cells.end - 1) / BLOCK].fill(true);
-                for (at, epsilon) in cells.zip(row.epsilons) {
-                    meets |= self.has_motion && self.epsilon[at] != T::default() && self.meet(at);
-                    self.epsilon[at] = self.epsilon[at].plus(*epsilon);
-                }
-            }
-        }
-        if !self.has_motion {
-            return;
-        }
-        for motion in &mut self.motion {
-            motion.resize(self.epsilon.len(), T::default());
+        if self.has_motion {
+            let cells = self.epsilon.len();
+            self.motion.iter_mut().for_each(|motion| motion.resize(cells, T::default()));
         }
         for part in parts {
             let rigid = Rigid::of(&solids[part.solid]);
             for row in coverage.rows(part, first) {
+                let last = row.start + row.count - 1;
+                for block in row.start / BLOCK..=last / BLOCK {
+                    self.covered[block] = true;
+                }
                 let along = rigid.along(&row.arm);
-                for (x, epsilon) in row.epsilons.iter().enumerate() {
-                    let (at, epsilon) = (row.start + x, epsilon.to_f64());
-                    let u_s = along.velocity(x as f64);
-                    for axis in 0..3 {
-                        let sum = &mut self.motion[axis][at];
-                        *sum = sum.plus(T::from_f64(epsilon * u_s[axis]));
-                    }
-                    if meets && self.meeting_of[at] > 0 {
-                        let squares = &mut self.meetings[self.meeting_of[at] as usize - 1].squares;
-                        for (sum, [i, j]) in squares.iter_mut().zip(AXES) {
-                            *sum += epsilon * u_s[i] * u_s[j];
-                        }
-                    }
+                for x in (0..row.count).step_by(EIGHT) {
+                    let cells = row.start + x..row.start + (x + EIGHT).min(row.count);
+                    self.add_eight(cells, &row.epsilons[x..], &along.from(x));
                 }
             }
         }
     }
 
-    /// Notes that solids meet in a cell.
-    fn meet(&mut self, at: usize) -> bool {
+    /// Adds what a solid covers of up to eight cells of a row.
+    #[inline(always)]
+    fn add_eight(&mut self, cells: Range<usize>, epsilons: &[T], along: &Along) {
+        let (at, count) = (cells.start, cells.len());
+        let (Some(epsilons), Some(sum)) =
+            (epsilons.first_chunk::<EIGHT>(), self.epsilon[at..].first_chunk_mut::<EIGHT>())
+        else {
+            return;
+        };
+        let no = T::default();
+        let (mut added, mut meets) = (*epsilons, false);
+        for x in 0..EIGHT {
+            added[x] = if x < count { added[x] } else { no };
+            meets |= (sum[x] != no) & (added[x] != no);
+        }
+        let before = *sum;
+        for x in 0..EIGHT {
+            sum[x] = sum[x] + added[x];
+        }
+        if !self.has_motion {
+            return;
+        }
+        let u_s = along.eight();
+        if meets {
+            for x in 0..count {
+                if before[x] != no {
+                    let u_s = [u_s[0][x], u_s[1][x], u_s[2][x]];
+                    self.meet(at + x, before[x].to_f64(), added[x].to_f64(), &u_s);
+                }
+            }
+        }
+        for axis in 0..3 {
+            let Some(sum) = self.motion[axis][at..].first_chunk_mut::<EIGHT>() else { return };
+            for x in 0..EIGHT {
+                sum[x] = sum[x] + T::from_f64(added[x].to_f64() * u_s[axis][x]);
+            }
+        }
+    }
+
+    /// Notes that one more solid, `epsilon` of it with the velocity `u_s`, meets others in a cell, which fill `before`.
+    fn meet(&mut self, at: usize, before: f64, epsilon: f64, u_s: &[f64; 3]) {
         self.meeting_of.resize(self.epsilon.len(), 0);
         if self.meeting_of[at] == 0 {
-            self.meetings.push(Meeting { cell: at, squares: [0.0; 6] });
+            // So far there was one.
+            let motion = self.motion.each_ref().map(|motion| motion[at].to_f64());
+            let squares = AXES.map(|[i, j]| motion[i] * motion[j] / before);
+            self.meetings.push(Meeting { cell: at, squares });
             self.meeting_of[at] = u32::try_from(self.meetings.len()).unwrap_or(u32::MAX);
         }
-        true
+        let squares = &mut self.meetings[self.meeting_of[at] as usize - 1].squares;
+        for (sum, [i, j]) in squares.iter_mut().zip(AXES) {
+            *sum += epsilon * u_s[i] * u_s[j];
+        }
     }
 
     /// Takes away what [`Self::add`] has added.
     pub(super) fn clear(&mut self, coverage: &Coverage<T>, run: usize, first: usize) {
+        let zeros = [T::default(); EIGHT];
         for part in coverage.parts(run) {
             for row in coverage.rows(part, first) {
-                let cells = row.start..row.start + row.epsilons.len();
-                self.covered[cells.start / BLOCK..=(cells.end - 1) / BLOCK].fill(false);
-                self.epsilon[cells.clone()].fill(T::default());
-                if self.has_motion {
-                    self.motion.iter_mut().for_each(|sum| sum[cells.clone()].fill(T::default()));
+                let last = row.start + row.count - 1;
+                for block in row.start / BLOCK..=last / BLOCK {
+                    self.covered[block] = false;
+                }
+                // Some of the cells behind the row, too: these are cleared anyway.
+                for at in (row.start..=last).step_by(EIGHT) {
+                    let motion = self.motion.iter_mut().filter(|_| self.has_motion);
+                    for sum in motion.chain([&mut self.epsilon]) {
+                        sum[at..at + EIGHT].copy_from_slice(&zeros);
+                    }
                 }
             }
         }
@@ -154,6 +205,9 @@ impl<T: Real> Fields<T> {
     /// Where solids with different velocities meet, the pass has taken the mean of these. The equilibria of the
     /// solids are squares of the velocities: adds what the mean of the squares is more than the square of the mean.
     pub(super) fn correct_meetings(&self, rules: &Rules, run: &mut [&mut [T]; Q]) {
+        if !rules.has_squares() {
+            return;
+        }
         for Meeting { cell, squares } in &self.meetings {
             let sum = self.epsilon[*cell].to_f64();
             let mean = self.motion.each_ref().map(|motion| motion[*cell].to_f64() / sum);
@@ -184,82 +238,7 @@ impl<T: Real> Fields<T> {
             }
         }
     }
-
-    /// What each solid has received in this run.
-    pub(super) fn receive(
-        (coverage, solids): (&Coverage<T>, &[Solid]),
-        (run, first): (usize, usize),
-        seen: &Seen<T>,
-    ) -> Vec<Received> {
-        let of_part = |part: &Part| {
-            let rigid = Rigid::of(&solids[part.solid]);
-            let mut received =
-                Received { solid: part.solid, load: Load::default(), displaced: 0.0 };
-            for row in coverage.rows(part, first) {
-                let cells = row.start..row.start + row.epsilons.len();
-                let along = rigid.along(&row.arm);
-                let [excess, jx, jy, jz, share] = seen.of.each_ref().map(|of| &of[cells.clone()]);
-                for x in 0..row.epsilons.len() {
-                    // B_s = B_t ε_s / Σ ε_s
-                    let weight = share[x].to_f64() * row.epsilons[x].to_f64();
-                    let (rho, u_s) = (1.0 + excess[x].to_f64(), along.velocity(x as f64));
-                    let j = [jx[x].to_f64(), jy[x].to_f64(), jz[x].to_f64()];
-                    // F_s = -B_s Σ_a Λ_a c_a = B_s (j - ρ u_s)
-                    let [fx, fy, fz] = [0, 1, 2].map(|axis| weight * (j[axis] - rho * u_s[axis]));
-                    let (rx, ry, rz) = (row.arm.x + x as f64, row.arm.y, row.arm.z);
-                    received.load.force += Vec3::new(fx, fy, fz);
-                    received.load.torque +=
-                        Vec3::new(ry * fz - rz * fy, rz * fx - rx * fz, rx * fy - ry * fx);
-                    received.displaced += weight;
-                }
-            }
-            received
-        };
-        coverage.parts(run).iter().map(of_part).collect()
-    }
 }
 
 /// The axes of the six components of a symmetric matrix.
 const AXES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
-
-/// The motion of a solid.
-struct Rigid {
-    velocity: [f64; 3],
-    angular: [f64; 3],
-}
-
-/// Its velocity along a row of cells: linear in x.
-struct Along {
-    first: [f64; 3],
-    per_cell: [f64; 3],
-}
-
-impl Rigid {
-    fn of(solid: &Solid) -> Self {
-        Rigid { velocity: solid.velocity.into(), angular: solid.angular_velocity.into() }
-    }
-
-    /// Along the row whose first cell is at `arm` from the centre.
-    #[inline]
-    fn along(&self, arm: &Vec3) -> Along {
-        let [wx, wy, wz] = self.angular;
-        let [ux, uy, uz] = self.velocity;
-        // u_s = U + ω × r
-        Along {
-            first: [
-                ux + (wy * arm.z - wz * arm.y),
-                uy + (wz * arm.x - wx * arm.z),
-                uz + (wx * arm.y - wy * arm.x),
-            ],
-            per_cell: [0.0, wz, -wy],
-        }
-    }
-}
-
-impl Along {
-    #[inline]
-    fn velocity(&self, x: f64) -> [f64; 3] {
-        let ([a, b, c], [_, q, r]) = (self.first, self.per_cell);
-        [a, b + q * x, c + r * x]
-    }
-}

@@ -15,10 +15,11 @@ use rayon::prelude::*;
 use super::collision::{Rules, weight};
 use super::coverage::Coverage;
 use super::faces::Entering;
-use super::fields::{Fields, Received, Seen};
+use super::fields::{Adding, Fields, Seen};
 use super::grid::Grid;
 use super::observe::{Sums, sum};
 use super::pass::Pass;
+use super::received::{Received, Receiving};
 use crate::lanes::Real;
 
 /// Cells that a thread takes at a time, in whole rows: with what solids cover of them they stay in its own cache.
@@ -118,7 +119,7 @@ impl<T: Real> Fluid<T> {
             let first = run * self.run;
             let mut fields = Fields::new(self.run);
             if let Some(coverage) = self.coverage.as_ref().filter(|_| covered_move) {
-                fields.add(coverage, &solids, run, first);
+                fields.add((coverage, &solids), run, first);
             }
             let motion = fields.motion();
             for cell in first..cells.min(first + self.run) {
@@ -173,10 +174,15 @@ impl<T: Real> Fluid<T> {
             let moves = coverage.has_changed[run];
             if moves {
                 *kept = None;
-                spare.fields.add(coverage, solids, run, first);
+                arch.dispatch(Adding {
+                    fields: &mut spare.fields,
+                    of: (coverage, solids),
+                    run,
+                    first,
+                });
             } else if kept.is_none() {
                 let mut fields = Fields::new(*cells);
-                fields.add(coverage, solids, run, first);
+                fields.add((coverage, solids), run, first);
                 *kept = Some(fields);
             }
             let fields = kept.as_ref().unwrap_or(&spare.fields);
@@ -184,7 +190,13 @@ impl<T: Real> Fluid<T> {
             arch.dispatch(Pass { rules, run: values, solids: Some((fields, seen)) });
             fields.correct_meetings(rules, values);
             let received = if with_loads {
-                Fields::receive((coverage, solids), (run, first), &spare.seen)
+                arch.dispatch(Receiving {
+                    of: (coverage, solids),
+                    run,
+                    first,
+                    seen: &spare.seen,
+                    gain: rules.gain(),
+                })
             } else {
                 Vec::new()
             };
@@ -258,10 +270,16 @@ impl<T: Real> Fluid<T> {
             let mut values = slices(&mut copies);
             self.entering.now().put(run * rows, &mut values);
             let mut spare = taken(&self.scratch, self.run);
-            spare.fields.add(coverage, self.solids(), run, first);
+            spare.fields.add((coverage, self.solids()), run, first);
             let solids = Some((&spare.fields, Some(&mut spare.seen)));
             self.arch.dispatch(Pass { rules: &self.rules, run: &mut values, solids });
-            let received = Fields::receive((coverage, self.solids()), (run, first), &spare.seen);
+            let received = self.arch.dispatch(Receiving {
+                of: (coverage, self.solids()),
+                run,
+                first,
+                seen: &spare.seen,
+                gain: self.rules.gain(),
+            });
             spare.fields.clear(coverage, run, first);
             given_back(&self.scratch, spare);
             received
@@ -384,7 +402,7 @@ impl<T: Real> Fluid<T> {
                 if let Some(present) = present {
                     fields.clear(coverage, present, present * self.run);
                 }
-                fields.add(coverage, self.solids(), run, first);
+                fields.add((coverage, self.solids()), run, first);
                 present = Some(run);
             }
             *fraction = fields.epsilon[cell - first].to_f64().min(1.0);

@@ -7,7 +7,8 @@
 //! | `collision.rs` | the collision of a vector of cells |
 //! | `pass.rs` | one pass over a run of cells |
 //! | `faces.rs` | the populations that enter through the faces |
-//! | `coverage.rs`, `fields.rs` | what solids cover, run by run, and what they receive |
+//! | `coverage.rs`, `fields.rs` | what solids cover, run by run |
+//! | `rigid.rs`, `received.rs` | how they move, and what they receive |
 //! | `observe.rs` | density and momentum of cells, and what a guard sees of them |
 //!
 //! Results do not depend on the number of threads or the width of the vectors: a run of cells is always the same rows,
@@ -21,5 +22,7 @@ mod fluid;
 mod grid;
 mod observe;
 mod pass;
+mod received;
+mod rigid;
 
 pub use fluid::Fluid;

@@ -4,7 +4,7 @@ use psmrt_reference::directions::{OPPOSITE, Q};
 use pulp::{Simd, WithSimd};
 
 use super::collision::{Collider, Rules};
-use super::fields::{BLOCK, Fields, Seen};
+use super::fields::{Fields, Seen};
 use crate::lanes::{Lanes, Real};
 
 /// The vectors of numbers of type `T` on a processor with the instructions `S`.
@@ -65,9 +65,9 @@ impl<T: Real> WithSimd for Pass<'_, '_, T> {
                 for i in 0..vectors {
                     let f: [LanesOf<T, S>; Q] =
                         std::array::from_fn(|a| Lanes::load(token, bodies[a][i]));
-                    let post = if fields.covered[i * lanes / BLOCK] {
+                    let post = if fields.is_covered(i * lanes, lanes) {
                         let epsilon = LanesOf::<T, S>::load(token, epsilons[i]);
-                        let velocity = match motion {
+                        let motion = match motion {
                             None => None,
                             Some([(x, _), (y, _), (z, _)]) => {
                                 let sum = [
@@ -75,10 +75,10 @@ impl<T: Real> WithSimd for Pass<'_, '_, T> {
                                     Lanes::load(token, y[i]),
                                     Lanes::load(token, z[i]),
                                 ];
-                                Some(collider.mean(sum, epsilon))
+                                Some(sum)
                             }
                         };
-                        let (post, now) = collider.saturated(&f, epsilon, velocity);
+                        let (post, now) = collider.saturated(&f, epsilon, motion);
                         if let Some(seen) = &mut seen {
                             for k in 0..5 {
                                 LanesOf::<T, S>::split_mut(&mut seen.of[k][..cells]).0[i] =
@@ -96,9 +96,9 @@ impl<T: Real> WithSimd for Pass<'_, '_, T> {
                 if rest > 0 {
                     let f: [LanesOf<T, S>; Q] =
                         std::array::from_fn(|a| Lanes::load_some(token, tails[a]));
-                    let post = if fields.covered[vectors * lanes / BLOCK] {
+                    let post = if fields.is_covered(vectors * lanes, rest) {
                         let epsilon = LanesOf::<T, S>::load_some(token, last_epsilon);
-                        let velocity = match motion {
+                        let motion = match motion {
                             None => None,
                             Some([(_, x), (_, y), (_, z)]) => {
                                 let sum = [
@@ -106,10 +106,10 @@ impl<T: Real> WithSimd for Pass<'_, '_, T> {
                                     Lanes::load_some(token, y),
                                     Lanes::load_some(token, z),
                                 ];
-                                Some(collider.mean(sum, epsilon))
+                                Some(sum)
                             }
                         };
-                        let (post, now) = collider.saturated(&f, epsilon, velocity);
+                        let (post, now) = collider.saturated(&f, epsilon, motion);
                         if let Some(seen) = &mut seen {
                             for k in 0..5 {
                                 now[k].store_some(

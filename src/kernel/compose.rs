@@ -158,9 +158,23 @@ impl Recipe<'_> {
         let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
         let tables = [(Binding::Shares, "shares"), (Binding::Moments, "moments")]
             .map(|(binding, name)| table::reader(self.layout.store, binding, name));
-        let head = format!("const LANES = {lanes}u;\nconst SOLIDS = {}u;\n", self.solid_count());
+        let head = format!(
+            "const LANES = {lanes}u;\nconst SOLIDS = {}u;\nconst GAIN = {};\n",
+            self.solid_count(),
+            literal(self.gain())
+        );
         let files = [include_str!("wgsl/solid.wgsl"), include_str!("wgsl/gather.wgsl")];
         head + &tables.concat() + &files.concat()
+    }
+
+    /// What the solid operator takes of the momentum, over `B (j - ρ u_s)`.
+    fn gain(&self) -> f64 {
+        match self.setup.solid_phase.as_ref().map(|phase| phase.operator) {
+            Some(SolidOperator::FullBounceBack) => 2.0,
+            Some(SolidOperator::NonEquilibriumBounceBack | SolidOperator::Superposition) | None => {
+                1.0
+            }
+        }
     }
 
     /// Number of solids.
@@ -209,8 +223,10 @@ impl Recipe<'_> {
                 flags.push("LOADS");
             }
             let operator = self.setup.solid_phase.as_ref().map(|phase| phase.operator);
-            if operator == Some(SolidOperator::Superposition) {
-                flags.push("SUPERPOSITION");
+            match operator {
+                Some(SolidOperator::Superposition) => flags.push("SUPERPOSITION"),
+                Some(SolidOperator::FullBounceBack) => flags.push("FULL"),
+                Some(SolidOperator::NonEquilibriumBounceBack) | None => {}
             }
         }
         if forced || solids != SolidData::None {
@@ -247,6 +263,7 @@ impl Recipe<'_> {
             ("S_PI", s_pi),
             ("S_M", s_m),
             ("TWO_THIRDS", 2.0 / 3.0),
+            ("GAIN", self.gain()),
             ("MAX_SPEED2", self.setup.guard.max_speed.powi(2)),
         ];
         let mut text = String::new();

@@ -5,13 +5,13 @@
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::partial_saturation::Weighting;
+use psmrt_reference::partial_saturation::{VISCOUS_FACTOR, Weighting};
 use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
 use super::numbers::{count, single};
-use crate::ball::{cells_about, sampled_fraction, solid_fractions};
+use crate::ball::{cells_about, solid_fractions};
 
 /// One cell that a solid touches.
 #[derive(Clone, Copy, Debug)]
@@ -174,6 +174,11 @@ fn weight(weighting: Weighting, sum: f64, tau: f64) -> f64 {
             let excess = tau - 0.5;
             epsilon * excess / (1.0 - epsilon + excess)
         }
+        // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)]
+        Weighting::Viscous => {
+            let solid = VISCOUS_FACTOR * epsilon * (tau - 0.5);
+            solid / (1.0 - epsilon + solid)
+        }
     }
 }
 
@@ -197,7 +202,7 @@ fn list_sphere(
     rule: CoverageRule,
     touches: &mut Vec<Touch>,
 ) {
-    let mut add = |[x, y, z]: [i64; 3], epsilon: f64| {
+    let add = |[x, y, z]: [i64; 3], epsilon: f64| {
         if let Some(inside) = domain.locate([x, y, z]) {
             // Of this image: the cell before it is wrapped round the box.
             let arm = Vec3::new(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5) - centre;
@@ -206,19 +211,5 @@ fn list_sphere(
     };
     let [x_range, y_range, z_range] = cells_about((*centre).into(), radius);
     let cells = [domain.within(0, x_range), domain.within(1, y_range), domain.within(2, z_range)];
-    let CoverageRule::Sampled { n } = rule else {
-        return solid_fractions((*centre).into(), radius, &cells, add);
-    };
-    let [x_range, y_range, z_range] = cells;
-    for z in z_range {
-        for y in y_range.clone() {
-            for x in x_range.clone() {
-                let middle = Vec3::new(x as f64 + 0.5, y as f64 + 0.5, z as f64 + 0.5);
-                let epsilon = sampled_fraction((centre - middle).into(), radius, n);
-                if epsilon > 0.0 {
-                    add([x, y, z], epsilon);
-                }
-            }
-        }
-    }
+    solid_fractions(rule, (*centre).into(), radius, &cells, add);
 }

@@ -1,7 +1,7 @@
 //! The shaders that find what movable solids cover (`movable.rs`), put together for one scene.
 
 use psmrt_reference::coverage::CoverageRule;
-use psmrt_reference::partial_saturation::Weighting;
+use psmrt_reference::partial_saturation::{VISCOUS_FACTOR, Weighting};
 
 use super::bindings::Binding;
 use super::compose::{Recipe, selected};
@@ -39,10 +39,19 @@ impl Recipe<'_> {
                 flags.push("SAMPLED");
                 n
             }
-            _ => 1,
+            Some(CoverageRule::Linear) => {
+                flags.push("LINEAR");
+                1
+            }
+            Some(CoverageRule::Exact) | None => {
+                flags.push("EXACT");
+                1
+            }
         };
-        if phase.is_some_and(|phase| phase.weighting == Weighting::NobleTorczynski) {
-            flags.push("NOBLE");
+        match phase.map(|phase| phase.weighting) {
+            Some(Weighting::NobleTorczynski) => flags.push("NOBLE"),
+            Some(Weighting::Viscous) => flags.push("VISCOUS"),
+            Some(Weighting::SolidFraction) | None => flags.push("FRACTION"),
         }
         if !work.in_every_cell {
             flags.push("LISTED");
@@ -53,7 +62,10 @@ impl Recipe<'_> {
         for (name, value) in whole {
             text += &format!("const {name} = {value}u;\n");
         }
-        text += &format!("const EXCESS = {};\n", literal(self.setup.collision.tau() - 0.5));
+        let excess = self.setup.collision.tau() - 0.5;
+        for (name, value) in [("EXCESS", excess), ("VISCOUS_EXCESS", VISCOUS_FACTOR * excess)] {
+            text += &format!("const {name} = {};\n", literal(value));
+        }
         for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
             text += &format!("const PERIODIC_{name} = {};\n", self.setup.domain.is_periodic(axis));
         }

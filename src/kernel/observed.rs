@@ -2,7 +2,7 @@
 
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::partial_saturation::Weighting;
+use psmrt_reference::partial_saturation::{VISCOUS_FACTOR, Weighting};
 use psmrt_reference::solids::Load;
 
 use super::buffers::Growing;
@@ -84,7 +84,12 @@ impl Kernel {
                 let excess = self.setup.collision.tau() - 0.5;
                 (b * (1.0 + excess) / (b + excess)).min(1.0)
             }
-            _ => b,
+            // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)], so that ε = B / [B + c (τ - 1/2) (1 - B)]
+            Some(Weighting::Viscous) => {
+                let excess = VISCOUS_FACTOR * (self.setup.collision.tau() - 0.5);
+                if b == 0.0 { 0.0 } else { (b / (b + excess * (1.0 - b))).min(1.0) }
+            }
+            Some(Weighting::SolidFraction) | None => b,
         }
     }
 

@@ -13,6 +13,9 @@ pub struct Available {
     pub limit: String,
 }
 
+/// Addresses that the C library's allocator (glibc) reserves for each thread when that first asks for memory.
+const ARENA: u64 = 64 << 20;
+
 /// Memory that this process can still have.
 pub fn available() -> Option<Available> {
     let text = |path: &str| fs::read_to_string(path).ok();
@@ -22,12 +25,13 @@ pub fn available() -> Option<Available> {
     };
     add(text("/proc/meminfo").and_then(|text| kib(&text, "MemAvailable:")), "free on this machine");
     if let (Some(limits), Some(status)) = (text("/proc/self/limits"), text("/proc/self/status")) {
-        for (name, used, words) in [
-            ("Max address space", "VmSize:", "limit of the address space, ulimit -v"),
-            ("Max data size", "VmData:", "limit of the data, ulimit -d"),
+        let arenas = ARENA * super::threads() as u64;
+        for (name, used, reserved, words) in [
+            ("Max address space", "VmSize:", arenas, "limit of the address space, ulimit -v"),
+            ("Max data size", "VmData:", 0, "limit of the data, ulimit -d"),
         ] {
             let left = soft_limit(&limits, name)
-                .and_then(|limit| Some(limit.saturating_sub(kib(&status, used)?)));
+                .and_then(|limit| Some(limit.saturating_sub(kib(&status, used)? + reserved)));
             add(left, words);
         }
     }

@@ -107,14 +107,17 @@ pub enum Motion {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolidSection {
-    /// Weight `B` of the solid in a cell: `noble_torczynski` (the default) or `solid_fraction`.
+    /// Weight `B` of the solid in a cell: `noble_torczynski` (the default), `solid_fraction`, or `viscous`, in proportion
+    /// to the viscosity, which belongs to `full_bounce_back`.
     #[serde(default)]
     pub weighting: WeightingName,
-    /// Collision in the solid: `bounce_back` of the non-equilibrium part (SC1 of the literature, the default) or
-    /// `superposition` (SC2).
+    /// Collision in the solid: `bounce_back` of the non-equilibrium part (SC1 of the literature, the default),
+    /// `superposition` (SC2) or `full_bounce_back` (SC3): no fluid passes through the cells that a solid fills. With
+    /// `weighting = "viscous"` the error of a bed of fixed grains hardly depends on tau; not for free grains.
     #[serde(default)]
     pub operator: OperatorName,
-    /// How the solid fraction of a cell is found: `exact` (the default) or `sampled`.
+    /// How the solid fraction of a cell is found: `exact` (the default), `sampled`, or `linear` in the distance between
+    /// the centres of grain and cell, the fastest where grains move.
     #[serde(default)]
     pub coverage: CoverageName,
     /// With `sampled`: points along each axis of a cell, 1 to 100.
@@ -130,6 +133,8 @@ pub enum WeightingName {
     NobleTorczynski,
     /// The solid fraction itself.
     SolidFraction,
+    /// `B/(1 - B) = 0.6 (tau - 1/2) epsilon/(1 - epsilon)`.
+    Viscous,
 }
 
 /// Collision in the solid.
@@ -141,6 +146,8 @@ pub enum OperatorName {
     BounceBack,
     /// Superposition (SC2).
     Superposition,
+    /// Bounce-back of the whole populations (SC3).
+    FullBounceBack,
 }
 
 /// How the solid fraction of a cell is found.
@@ -152,4 +159,6 @@ pub enum CoverageName {
     Exact,
     /// By sample points.
     Sampled,
+    /// Linear in the distance between the centres of sphere and cell.
+    Linear,
 }

@@ -140,13 +140,13 @@ pub struct CheckpointSection {
     pub every_minutes: Option<f64>,
 }
 
-/// What computes the scene; `reference` where the section is absent. Single precision changes none of the errors of
-/// golden/tradeoff by more than 1e-4 (effects.csv); it is judged by the double precision of `reference`.
+/// What computes the scene; `cpu` in double precision where the section is absent. Single precision changes none of the
+/// errors of golden/tradeoff by more than 1e-4 (effects.csv); every engine is judged by `reference`, the oracle.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EngineSection {
-    /// `reference`: the oracle, double precision on the CPU; `cpu`: the fast engine on the CPU; `wgpu`: single
-    /// precision on a GPU; `auto`: `wgpu` where there is a GPU, else `cpu`.
+    /// `cpu`: the fast engine on the CPU; `reference`: the oracle, double precision on the CPU, written to be read;
+    /// `wgpu`: single precision on a GPU; `auto`: `wgpu` where there is a GPU, else `cpu`.
     pub kind: EngineKind,
     /// With `cpu`: `double`, the default, or `single`, which takes half the memory and half the time. With `auto`
     /// `double` leaves a GPU aside.
@@ -161,9 +161,9 @@ pub struct EngineSection {
 #[serde(rename_all = "snake_case")]
 pub enum EngineKind {
     /// The oracle.
-    #[default]
     Reference,
-    /// The CPU engine.
+    /// The CPU engine: computes what the oracle does, to round-off in double precision, some twenty times as fast.
+    #[default]
     Cpu,
     /// The kernel.
     Wgpu,

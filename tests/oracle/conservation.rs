@@ -39,8 +39,16 @@ prop_compose! {
     fn any_solids()(
         seed in any::<u64>(),
         count in 0_usize..5,
-        weighting in prop_oneof![Just(Weighting::SolidFraction), Just(Weighting::NobleTorczynski)],
-        superposition in any::<bool>(),
+        weighting in prop_oneof![
+            Just(Weighting::SolidFraction),
+            Just(Weighting::NobleTorczynski),
+            Just(Weighting::Viscous),
+        ],
+        operator in prop_oneof![
+            Just(SolidOperator::NonEquilibriumBounceBack),
+            Just(SolidOperator::Superposition),
+            Just(SolidOperator::FullBounceBack),
+        ],
     ) -> SolidPhase {
         let mut random = Random(seed);
         let solids = (0..count).map(|_| {
@@ -51,11 +59,6 @@ prop_compose! {
                 ..Solid::fixed_sphere(centre, random.between(0.4, 2.4))
             }
         }).collect();
-        let operator = if superposition {
-            SolidOperator::Superposition
-        } else {
-            SolidOperator::NonEquilibriumBounceBack
-        };
         SolidPhase { solids, weighting, operator, ..SolidPhase::default() }
     }
 }

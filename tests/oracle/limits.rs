@@ -7,7 +7,7 @@ use common::random::{Random, largest_difference};
 use psmrt_reference::cell_collision::CellCollision;
 use psmrt_reference::collision::{Collision, CollisionOperator, Preset};
 use psmrt_reference::coverage::{Coverage, CoverageRule};
-use psmrt_reference::directions::Q;
+use psmrt_reference::directions::{OPPOSITE, Q};
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::equilibrium::equilibrium;
 use psmrt_reference::lattice::{Populations, Vec3, momentum, relaxation_time, viscosity};
@@ -17,9 +17,13 @@ use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 use psmrt_reference::solver::Solver;
 
-const OPERATORS: [SolidOperator; 2] =
-    [SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition];
-const WEIGHTINGS: [Weighting; 2] = [Weighting::SolidFraction, Weighting::NobleTorczynski];
+const OPERATORS: [SolidOperator; 3] = [
+    SolidOperator::NonEquilibriumBounceBack,
+    SolidOperator::Superposition,
+    SolidOperator::FullBounceBack,
+];
+const WEIGHTINGS: [Weighting; 3] =
+    [Weighting::SolidFraction, Weighting::NobleTorczynski, Weighting::Viscous];
 
 fn one_cell() -> Domain {
     Domain::new([1, 1, 1], Faces::PERIODIC).unwrap()
@@ -96,11 +100,15 @@ fn mrt_with_equal_rates_is_srt() {
     }
 }
 
+/// Those that leave a full cell with the momentum of the solid.
+const STOPPING: [SolidOperator; 2] =
+    [SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition];
+
 #[test]
-fn full_cell_of_a_resting_solid_keeps_no_momentum() {
+fn full_cell_of_a_resting_solid_keeps_no_momentum_or_turns_all_of_it_back() {
     let mut random = Random(3);
     for collision in [Collision::Srt { tau: 0.6 }, mrt(0.6), mrt(2.0)] {
-        for operator in OPERATORS {
+        for operator in STOPPING {
             let f = random.populations();
             for g in [None, Some(Vec3::new(1e-3, 0.0, 0.0))] {
                 let solids = vec![solid(1.0, Vec3::zeros())];
@@ -113,19 +121,33 @@ fn full_cell_of_a_resting_solid_keeps_no_momentum() {
                 );
             }
         }
+        let (f, operator) = (random.populations(), SolidOperator::FullBounceBack);
+        let solids = vec![solid(1.0, Vec3::zeros())];
+        let phase = SolidPhase { solids, operator, ..SolidPhase::default() };
+        let turned = collide(&f, collision, Some(Vec3::new(1e-3, 0.0, 0.0)), phase);
+        // f + (f_-a - f_a) rounds twice.
+        let expected = std::array::from_fn(|a| f[OPPOSITE[a]]);
+        assert!(
+            largest_difference(&turned, &expected) < 1e-16,
+            "{collision:?}: {turned:?}, not {expected:?}"
+        );
     }
 }
 
 #[test]
-fn full_cell_leaves_with_the_momentum_of_the_solid() {
+fn full_cell_leaves_with_the_momentum_of_the_solid_or_turned_about_it() {
     let mut random = Random(4);
     for operator in OPERATORS {
         let (f, u_p) = (random.populations(), random.vector(0.1));
         let rho: f64 = f.iter().sum();
         let phase = SolidPhase { solids: vec![solid(1.0, u_p)], operator, ..SolidPhase::default() };
+        let expected = match operator {
+            SolidOperator::NonEquilibriumBounceBack | SolidOperator::Superposition => rho * u_p,
+            SolidOperator::FullBounceBack => 2.0 * rho * u_p - momentum(&f),
+        };
         // As above, twice over.
         let left = momentum(&collide(&f, mrt(0.8), None, phase));
-        assert_abs_diff_eq!(left, rho * u_p, epsilon = 2e-15);
+        assert_abs_diff_eq!(left, expected, epsilon = 2e-15);
     }
 }
 

@@ -31,12 +31,13 @@ fn carried(solver: &Solver, displaced: &[f64], force: Vec3) -> Vec3 {
 
 #[test]
 fn loads_with_the_displaced_force_close_the_balance_of_each_step_to_round_off() {
-    let mut budget = Budget::oracle(150_000);
+    let mut budget = Budget::oracle(200_000);
     let force = Vec3::new(2e-4, -1e-4, 3e-4);
     for (collision, weighting, operator) in [
         (srt(0.7), Weighting::NobleTorczynski, SolidOperator::NonEquilibriumBounceBack),
         (dhumieres(0.7), Weighting::NobleTorczynski, SolidOperator::Superposition),
         (dhumieres(1.2), Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack),
+        (dhumieres(0.9), Weighting::Viscous, SolidOperator::FullBounceBack),
     ] {
         // One at rest, one that moves through a periodic face, and one that shares cells with it.
         let place = Vec3::new(3.1, 4.2, 5.3);

@@ -208,10 +208,14 @@ fn steps_commute_with_all_48_symmetries_whatever_the_faces_and_solids() {
     let mut budget = Budget::oracle(3_000_000);
     let mut random = Random(2);
     const STEPS: u64 = 5;
-    let operators = [SolidOperator::NonEquilibriumBounceBack, SolidOperator::Superposition];
+    let operators = [
+        SolidOperator::NonEquilibriumBounceBack,
+        SolidOperator::Superposition,
+        SolidOperator::FullBounceBack,
+    ];
     for (case, faces) in mixed_faces().into_iter().enumerate() {
         for collision in collisions() {
-            let setup = busy_box(faces, collision, operators[case % 2]);
+            let setup = busy_box(faces, collision, operators[case % 3]);
             let cells = setup.domain.cells();
             let start: Vec<Populations> =
                 (0..setup.domain.cell_count()).map(|_| random.populations()).collect();

@@ -175,4 +175,12 @@ fn solid_fractions_count_what_lies_inside_mirror_planes_only() {
         // Diameters are written with six digits.
         assert!((found / fraction - 1.0).abs() < 1e-5, "{name}: {found}, not {fraction}");
     }
+    // A centre that rounding has put beside its mirror plane, by 7e-5 of a cell: half of the sphere lies inside all the
+    // same, but for 1e-5 of it.
+    let beside = "grains[1].centre=[1.2e-4, 1.19999e-4, 0.0]";
+    let check = json(&["check", "--json", "golden/tradeoff/fcc.toml", "--set", beside], &[0]);
+    let numbers = check["numbers"].as_array().unwrap();
+    let found = numbers.iter().find(|number| number["name"] == "solid fraction").unwrap();
+    let found = found["value"].as_f64().unwrap();
+    assert!((found / 0.2 - 1.0).abs() < 1e-4, "beside a mirror plane: {found}, not 0.2");
 }

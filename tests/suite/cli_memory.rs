@@ -36,8 +36,8 @@ fn a_run_within_any_limit_of_memory_either_ends_well_or_is_refused_with_figures(
         match output.status.code() {
             Some(0) => {}
             Some(2) => {
-                // Two copies of 19 numbers of 8 bytes in each of 64³ cells.
-                for part in ["64 x 64 x 64 cells", "populations 76.0 MiB", "ulimit -v", "domain.dx"]
+                // 19 numbers of 8 bytes in each of 64³ cells.
+                for part in ["64 x 64 x 64 cells", "populations 38.0 MiB", "ulimit -v", "domain.dx"]
                 {
                     assert!(said.contains(part), "{mebibytes} MiB: {part}: {said}");
                 }

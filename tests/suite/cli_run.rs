@@ -52,7 +52,7 @@ fn the_poiseuille_scene_is_exact_and_other_rates_err_by_the_known_slip() {
     let facts = fs::read_to_string(folder.path("magic").join("run.json")).unwrap();
     let facts: Value = serde_json::from_str(&facts).unwrap();
     assert_eq!(facts["state"], "steady");
-    assert_eq!(facts["engine"], "reference");
+    assert_eq!(facts["engine"], "cpu");
     assert!(facts["program"]["version"].is_string() && facts["wall_seconds"].is_number());
 }
 

@@ -4,6 +4,7 @@ use crate::common::cuts::{assert_close, cut};
 use crate::common::random::Random;
 use crate::common::sphere_quadrature::fraction_by_quadrature;
 use psmrt::ball::{cells_about, sampled_fraction, solid_fraction, solid_fractions};
+use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
@@ -42,7 +43,7 @@ fn fractions_of_all_cells_at_once_are_those_of_each() {
         let (centre, radius) = (random.vector(3.0), random.between(0.1, 9.0));
         let mut touched = 0;
         let about = cells_about(centre.into(), radius);
-        solid_fractions(centre.into(), radius, &about, |cell, found| {
+        solid_fractions(CoverageRule::Exact, centre.into(), radius, &about, |cell, found| {
             let from_cell = centre - Vec3::from(cell.map(|i| i as f64 + 0.5));
             // Terms up to the radius cubed, some 700, in another order.
             assert_close(found, solid_fraction(from_cell.into(), radius), 1e-12);

@@ -28,8 +28,8 @@ fn models() -> &'static Models {
 
 /// Engines as fast as on the machine of the README.
 fn speeds() -> Vec<Speed> {
-    let speed = |engine: &str, mrt: f64, srt: f64| Speed { engine: engine.to_owned(), mrt, srt };
-    vec![speed("reference", 1.6e-7, 1.2e-7), speed("wgpu", 1e-7, 9e-8)]
+    let speed = |engine, mrt, srt| Speed { engine, mrt, srt };
+    vec![speed(EngineName::Reference, 1.6e-7, 1.2e-7), speed(EngineName::Wgpu, 1e-7, 9e-8)]
 }
 
 fn load(scene: &str) -> Scene {

@@ -34,7 +34,7 @@ fn models() -> &'static Models {
 }
 
 fn oracle() -> Speed {
-    Speed { engine: "reference".to_owned(), mrt: 1.0, srt: 1.0 }
+    Speed { engine: EngineName::Reference, mrt: 1.0, srt: 1.0 }
 }
 
 #[test]

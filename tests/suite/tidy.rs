@@ -235,7 +235,7 @@ fn kernel_and_cpu_engine_take_from_the_reference_only_words_for_set_ups() {
         ("rates", &[]),
         ("collision", &["Collision"]),
         ("coverage", &["CoverageRule"]),
-        ("partial_saturation", &["SolidOperator", "Weighting"]),
+        ("partial_saturation", &["SolidOperator", "VISCOUS_FACTOR", "Weighting"]),
         ("lattice", &["Populations", "Vec3"]),
     ];
     let mut uses = 0;

@@ -1,12 +1,14 @@
 //! Which cells the solids cover, and by how much.
 //!
-//! `sphere` and `sampled` give the solid fraction of one sphere in one cell, [`Solid::covered`] the cells that one solid
+//! `sphere`, `sampled` and `linear` give the solid fraction of one sphere in one cell, [`Solid::covered`] the cells that one solid
 //! covers; this file lists them for all solids.
 
+mod linear;
 pub(crate) mod rule;
 mod sampled;
 mod sphere;
 
+pub use linear::{SMALLEST_LINEAR_RADIUS, linear_fraction};
 pub use rule::CoverageRule;
 pub use sampled::sampled_fraction;
 pub use sphere::exact_fraction;

@@ -1,5 +1,6 @@
 //! Which way the solid fraction of a cell is found.
 
+use super::linear::linear_fraction;
 use super::sampled::sampled_fraction;
 use super::sphere::exact_fraction;
 use crate::lattice::Vec3;
@@ -15,6 +16,8 @@ pub enum CoverageRule {
         /// Points along each axis, at least 1.
         n: usize,
     },
+    /// Linear in the distance between the centres.
+    Linear,
 }
 
 impl CoverageRule {
@@ -23,6 +26,7 @@ impl CoverageRule {
         match self {
             CoverageRule::Exact => exact_fraction(centre, radius),
             CoverageRule::Sampled { n } => sampled_fraction(centre, radius, n),
+            CoverageRule::Linear => linear_fraction(centre, radius),
         }
     }
 }

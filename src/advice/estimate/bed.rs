@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 use crate::scene::Scene;
 
-use super::spheres::{solid_fraction, spheres};
+use super::spheres::{share_of, solid_fraction, spheres};
 
 /// A bed that is told from its domain has at least this solid fraction: looser grains are a cloud, whose drag
 /// does not depend much on how they lie.
@@ -83,16 +83,6 @@ pub(crate) fn bed(scene: &Scene) -> Option<Bed> {
 
 fn sphere(radius: f64) -> f64 {
     4.0 / 3.0 * PI * radius.powi(3)
-}
-
-/// Share of a sphere between two planes.
-fn share_of(radius: f64, centre: f64, [low, high]: [f64; 2]) -> f64 {
-    let below = |plane: f64| {
-        // Height h of the cap over the diameter:  V(h)/V = h² (3 - 2 h)
-        let height = ((plane - centre) / (2.0 * radius) + 0.5).clamp(0.0, 1.0);
-        height * height * (3.0 - 2.0 * height)
-    };
-    below(high) - below(low)
 }
 
 /// The same of a grain; where the axis is periodic also that of its images.

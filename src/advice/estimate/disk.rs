@@ -98,7 +98,7 @@ fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
 }
 
 fn checkpoints(scene: &Scene) -> f64 {
-    let engine = EngineName::of(scene).unwrap_or(EngineName::Reference);
+    let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision));
     let population = f64::from(engine.bytes_of_number());
     let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
     let cells = scene.setup.domain.cell_count() as f64;

@@ -31,7 +31,7 @@ pub struct Part {
 /// The arrays of a scene, at the most at any time of a run.
 pub fn parts(scene: &Scene) -> Vec<Part> {
     let cells = scene.setup.domain.cell_count() as u64;
-    let engine = EngineName::of(scene).unwrap_or(EngineName::Reference);
+    let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision));
     let real = u64::from(engine.bytes_of_number());
     let copies = u64::from(engine.copies());
     let mut parts = vec![Part { what: "populations", bytes: copies * 19 * real * cells }];
@@ -98,7 +98,7 @@ pub fn shortage(scene: &Scene) -> Option<(String, &'static str)> {
         mib(besides)
     );
     let remedy = "end other programs or raise that limit; use a larger `domain.dx` or a smaller box; mirror \
-                  planes (`free_slip`) halve it; engine wgpu needs half as much, of its adapter";
+                  planes (`free_slip`) halve it; single precision (engine.precision) needs half as much";
     Some((problem, remedy))
 }
 

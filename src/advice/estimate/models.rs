@@ -24,14 +24,17 @@ pub fn models(scene: &Scene) -> Vec<String> {
             match phase.weighting {
                 Weighting::NobleTorczynski => "Noble-Torczynski weighting",
                 Weighting::SolidFraction => "weighting by solid fraction",
+                Weighting::Viscous => "viscous weighting",
             },
             match phase.operator {
                 SolidOperator::NonEquilibriumBounceBack => "non-equilibrium bounce-back",
                 SolidOperator::Superposition => "superposition",
+                SolidOperator::FullBounceBack => "full bounce-back",
             },
             match phase.coverage {
                 CoverageRule::Exact => "exact".to_owned(),
                 CoverageRule::Sampled { n } => format!("sampled {n} x {n} x {n}"),
+                CoverageRule::Linear => "linear".to_owned(),
             }
         ));
         if phase.solids.iter().any(psmrt_reference::solids::Solid::moves) {

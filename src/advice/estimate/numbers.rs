@@ -87,7 +87,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
     }
     numbers.extend(predicted_error(scene));
     numbers.extend(grains::numbers(scene));
-    let engine = EngineName::of(scene).unwrap_or(EngineName::Reference).word();
+    let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision)).word();
     let parts: Vec<_> = memory::parts(scene).iter().map(|part| part.what).collect();
     let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
     numbers.push(number("memory", mib, "MiB", format!("{}; engine {engine}", parts.join(", "))));

@@ -6,19 +6,33 @@ use psmrt_reference::solids::{Shape, Solid};
 use crate::scene::Scene;
 
 /// The solids as spheres: solid, radius in cells (of the sphere of its volume, if it is of given cells), and the share
-/// of it that lies inside mirror planes.
+/// of it that lies inside mirror planes (where two of them cut it, as if each did so at every height).
 pub(crate) fn spheres(scene: &Scene) -> Vec<(&Solid, f64, f64)> {
     let domain = &scene.setup.domain;
     let share = |solid: &Solid| {
-        let cuts = (0..3).flat_map(|axis| [(axis, 0, 0.0), (axis, 1, domain.cells()[axis] as f64)]);
-        let is_cut = |&(axis, side, plane): &(usize, usize, f64)| {
-            let mirror = domain.faces().axis(axis)[side] == Face::FreeSlip;
-            mirror && is_sphere(solid) && (solid.centre[axis] - plane).abs() < 1e-6
+        if !is_sphere(solid) {
+            return 1.0;
+        }
+        let along = |axis: usize| {
+            let [low, high] = domain.faces().axis(axis).map(|face| face == Face::FreeSlip);
+            let low = if low { 0.0 } else { f64::NEG_INFINITY };
+            let high = if high { domain.cells()[axis] as f64 } else { f64::INFINITY };
+            share_of(0.5 * solid.diameter(), solid.centre[axis], [low, high])
         };
-        0.5_f64.powi(i32::try_from(cuts.filter(is_cut).count()).unwrap_or(0))
+        (0..3).map(along).product()
     };
     let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
     solids.map(|solid| (solid, 0.5 * solid.diameter(), share(solid))).collect()
+}
+
+/// Share of a sphere between two planes.
+pub(crate) fn share_of(radius: f64, centre: f64, [low, high]: [f64; 2]) -> f64 {
+    let below = |plane: f64| {
+        // Height h of the cap over the diameter:  V(h)/V = h² (3 - 2 h)
+        let height = ((plane - centre) / (2.0 * radius) + 0.5).clamp(0.0, 1.0);
+        height * height * (3.0 - 2.0 * height)
+    };
+    below(high) - below(low)
 }
 
 /// Given cells lie in the domain, all of them.

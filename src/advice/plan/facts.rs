@@ -123,6 +123,11 @@ impl Facts {
             (Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack) => {
                 SolidMethod::SolidFraction
             }
+            (Weighting::Viscous, _) | (_, SolidOperator::FullBounceBack) => {
+                let why = "it has the operator full_bounce_back or the viscous weight, for which no error model has been \
+                           fitted";
+                return Ok(Err(why.to_owned()));
+            }
             (Weighting::SolidFraction, SolidOperator::Superposition) => {
                 let why = "it has both B = epsilon and the superposition operator, which no run of the \
                            evidence has";

@@ -6,6 +6,7 @@ use psmrt_reference::lattice::viscosity;
 use super::facts::{Facts, Limit};
 use super::predict::{Outside, Parameters, WALL_CELLS, is_heavy_enough, predict};
 use crate::advice::tradeoff::models::Models;
+use crate::engine::EngineName;
 
 /// Relaxation times that are tried.
 const TAUS: [f64; 13] = [0.51, 0.52, 0.55, 0.6, 0.65, 0.7, 0.8, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0];
@@ -20,7 +21,7 @@ const GRID_REYNOLDS: f64 = 10.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Speed {
     /// `reference` or `wgpu`.
-    pub engine: String,
+    pub engine: EngineName,
     /// Seconds per cell update, MRT.
     pub mrt: f64,
     /// The same with one relaxation time.
@@ -41,7 +42,7 @@ pub struct PlanOption {
     /// Collision.
     pub collision: Preset,
     /// Engine, with the precision that goes with it.
-    pub engine: String,
+    pub engine: EngineName,
     /// Largest velocity in cells per step, if it is known.
     pub velocity: Option<f64>,
     /// Steps, at most.
@@ -176,7 +177,7 @@ fn option(
     let si_dt = viscosity(tau) * si_dx * si_dx / facts.si_viscosity;
     let velocity = facts.si_velocity.map(|si_velocity| si_velocity * si_dt / si_dx);
     let resolution = facts.limit.cells() * facts.si_dx / si_dx;
-    let single = speed.engine == "wgpu";
+    let single = !speed.engine.is_double();
     let predicted =
         predict(facts, models, &Parameters { resolution, tau, collision, single, velocity })?;
     let (error, band) = predicted.size();
@@ -190,7 +191,7 @@ fn option(
         resolution,
         tau,
         collision,
-        engine: speed.engine.clone(),
+        engine: speed.engine,
         velocity,
         steps,
         error,

@@ -6,6 +6,7 @@ use std::path::Path;
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::options::PlanOption;
+use crate::engine::EngineName;
 use crate::scene::Scene;
 
 /// The text of `scene` computed in this way, with `comment` above it; files that it names are looked for
@@ -36,7 +37,12 @@ pub fn text(
             collision.insert("magic", value(3.0 / 16.0));
         }
     }
-    section(&mut document, "engine").insert("kind", value(&option.engine));
+    let engine = section(&mut document, "engine");
+    engine.insert("kind", value(option.engine.kind().word()));
+    match option.engine {
+        EngineName::CpuSingle => engine.insert("precision", value("single")),
+        EngineName::Reference | EngineName::Cpu | EngineName::Wgpu => engine.remove("precision"),
+    };
     // What is given in steps stays the same in seconds.
     let si_dt = (option.tau - 0.5) / 3.0 * option.si_dx * option.si_dx
         / (psmrt_reference::lattice::viscosity(scene.setup.collision.tau())

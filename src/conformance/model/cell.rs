@@ -147,7 +147,8 @@ impl Model {
             let b = self.opposite[a];
             let turned = if self.has(Mistake::Eq5Sign) {
                 f[b] + f_eq[b]
-            } else if self.has(Mistake::FullBounceBack) {
+            } else if operator == SolidOperator::FullBounceBack || self.has(Mistake::FullBounceBack)
+            {
                 f[b] - solid[b]
             } else {
                 f[b] - f_eq[b]

@@ -105,7 +105,11 @@ fn touch(
             let low = low_corner(solid) + vec3<f32>(step);
 //#if SAMPLED
             fraction = sampled_fraction(low, solid.radius);
-//#else
+//#end
+//#if LINEAR
+            fraction = linear_fraction(low, solid.radius);
+//#end
+//#if EXACT
             fraction = solid_fraction(low, solid.radius);
 //#end
         }

@@ -137,3 +137,9 @@ fn sampled_fraction(low: vec3<f32>, r: f32) -> f32 {
     }
     return f32(inside) / f32(SAMPLES * SAMPLES * SAMPLES);
 }
+
+// Linear in the distance between the centres of cell and ball: clamp(r - 1/(12 r) + 1/2 - d, 0, 1).
+fn linear_fraction(low: vec3<f32>, r: f32) -> f32 {
+    let d = length(low + 0.5);
+    return clamp(r - 1.0 / (12.0 * r) + 0.5 - d, 0.0, 1.0);
+}

@@ -1,7 +1,7 @@
 // Force and torque on each solid during the last step, and Σ B_s, the volume in which a body force does not
 // act on the fluid.
 //
-// Both solid operators change the momentum of a cell by B_s (ρ u_s - j), with the momentum j before the
+// The solid operators change the momentum of a cell by GAIN B_s (ρ u_s - j), with the momentum j before the
 // collision: that is what the solid loses. A workgroup adds up the touches of one solid (the parts of
 // cells that it covers), each invocation every LANES-th, then a tree. The order of the sums depends on
 // nothing but where the solid is, so that two runs give the same bits.
@@ -39,8 +39,8 @@ fn gather(
             let moment = bitcast<vec4<f32>>(moments_at(links[number]));
             // u_s = U + ω × r
             let u = motion.velocity + cross(motion.spin, arm);
-            // F = Σ B_s (j - ρ u_s),  T = Σ r × F
-            let push = weights[number] * (moment.xyz - (1.0 + moment.w) * u);
+            // F = Σ GAIN B_s (j - ρ u_s),  T = Σ r × F
+            let push = GAIN * weights[number] * (moment.xyz - (1.0 + moment.w) * u);
             f += push;
             t += cross(arm, push);
             v += weights[number];

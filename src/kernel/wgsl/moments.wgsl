@@ -171,6 +171,24 @@ fn collided(
     var gj_y = f32(0.0);
     var gj_z = f32(0.0);
 //#end
+//#if FULL
+    // Bounce-back of whole populations leaves even moments as they are, and takes twice the momentum.
+    let gain_kinetic = f32(0.0);
+    let gain_xx = f32(0.0);
+    let gain_ww = f32(0.0);
+    let gain_xy = f32(0.0);
+    let gain_yz = f32(0.0);
+    let gain_xz = f32(0.0);
+//#if MOVING
+    let push_x = 2.0 * (rho * solid.velocity_x - b * j_x);
+    let push_y = 2.0 * (rho * solid.velocity_y - b * j_y);
+    let push_z = 2.0 * (rho * solid.velocity_z - b * j_z);
+//#else
+    let push_x = -2.0 * b * j_x;
+    let push_y = -2.0 * b * j_y;
+    let push_z = -2.0 * b * j_z;
+//#end
+//#else
     // Even moments of both operators: B [m_eq(u_p) - m_eq(u)]
 //#if MOVING
     let p_x = rho * solid.square_x;
@@ -195,6 +213,7 @@ fn collided(
     let push_x = -b * j_x;
     let push_y = -b * j_y;
     let push_z = -b * j_z;
+//#end
 //#end
     g_e = open * g_e + 19.0 * gain_kinetic;
     g_eps = open * g_eps - 5.5 * gain_kinetic;
@@ -223,7 +242,7 @@ fn collided(
     gm_y = open * gm_y - b * S_M * m_y;
     gm_z = open * gm_z - b * S_M * m_z;
 //#else
-    // Odd moments: B [m_eq(u) + m_eq(u_p) - 2 m]; bounce-back turns their signs
+    // Odd moments: B [m_eq(u) + m_eq(u_p) - 2 m], or B [2 m_eq(u_p) - 2 m]; bounce-back turns their signs
     gq_x = open * gq_x - TWO_THIRDS * (push_x + 2.0 * b * j_x) - 2.0 * b * q_x;
     gq_y = open * gq_y - TWO_THIRDS * (push_y + 2.0 * b * j_y) - 2.0 * b * q_y;
     gq_z = open * gq_z - TWO_THIRDS * (push_z + 2.0 * b * j_z) - 2.0 * b * q_z;

@@ -18,16 +18,22 @@
 // The weight B of a cell in which the solid fractions add up to `sum`.
 fn weight_of(sum: f32) -> f32 {
     let epsilon = min(sum, 1.0);
-//#if NOBLE
+//#if FRACTION
+    return epsilon;
+//#else
     // A quotient may be 2.5 units in the last place off (WGSL, accuracy of division), also that of equal numbers.
     // In a full cell nothing but bounce-back acts on the rest population: 1 - B = 1e-7 would let it relax all the same.
     if (epsilon == 1.0) {
         return 1.0;
     }
+//#if VISCOUS
+    // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)]
+    let solid = epsilon * VISCOUS_EXCESS;
+    return solid / (1.0 - epsilon + solid);
+//#else
     // B = ε (τ - 1/2) / [(1 - ε) + (τ - 1/2)]
     return epsilon * EXCESS / (1.0 - epsilon + EXCESS);
-//#else
-    return epsilon;
+//#end
 //#end
 }
 

@@ -47,11 +47,11 @@ fn summary(@builtin(global_invocation_id) id: vec3<u32>) {
         var gain = vec3<f32>(0.0);
 //#end
 //#if SOLIDS
-        // j* = j + (1 - B) G + Σ B_s (ρ u_s - j)
+        // j* = j + (1 - B) G + GAIN Σ B_s (ρ u_s - j)
         let solid = solid_part(at.x, at.y, at.z);
-        gain = (1.0 - solid.weight) * gain - solid.weight * j;
+        gain = (1.0 - solid.weight) * gain - GAIN * solid.weight * j;
 //#if MOVING
-        gain += rho * vec3<f32>(solid.velocity_x, solid.velocity_y, solid.velocity_z);
+        gain += GAIN * rho * vec3<f32>(solid.velocity_x, solid.velocity_y, solid.velocity_z);
 //#end
 //#end
         let flux = j + 0.5 * gain;

@@ -76,7 +76,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     if let Some(force) = free.as_ref().and_then(|part| gravity_on_fluid(part, &setup.domain)) {
         setup.body_force = Some(setup.body_force.unwrap_or_else(Vec3::zeros) + force);
     }
-    setup.solid_phase = solid::solid_phase(file.solid.as_ref(), list.solids())?;
+    setup.solid_phase = solid::solid_phase(file.solid.as_ref(), list.solids(), free.is_some())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
     let records = records::records(&file.records, &setup, free.is_some(), &units)?;
     let stop = stop::stop(&file.stop, &records, &units)?;
@@ -174,7 +174,7 @@ fn setup_trouble(error: &SetupError) -> Trouble {
         SetupError::Rates(_) => "collision",
         SetupError::Solid(_) => "grains",
         SetupError::BodyForce { .. } => "body_force",
-        SetupError::NoSamples => "solid",
+        SetupError::NoSamples | SetupError::TooSmallForLinear { .. } => "solid",
     };
     Trouble::new(key, error.to_string(), "change the value")
 }

@@ -9,10 +9,11 @@ use super::Trouble;
 use super::numbers::{absent, needed};
 use crate::scene::format_grains::{CoverageName, OperatorName, SolidSection, WeightingName};
 
-/// The solid phase, if there are grains.
+/// The solid phase, if there are grains; `has_free`: some of them are free.
 pub(super) fn solid_phase(
     section: Option<&SolidSection>,
     solids: Vec<Solid>,
+    has_free: bool,
 ) -> Result<Option<SolidPhase>, Trouble> {
     if solids.is_empty() {
         let remedy = "add [[grains]], or remove [solid]";
@@ -25,18 +26,31 @@ pub(super) fn solid_phase(
     let weighting = match section.weighting {
         WeightingName::NobleTorczynski => Weighting::NobleTorczynski,
         WeightingName::SolidFraction => Weighting::SolidFraction,
+        WeightingName::Viscous => Weighting::Viscous,
     };
     let operator = match section.operator {
         OperatorName::BounceBack => SolidOperator::NonEquilibriumBounceBack,
         OperatorName::Superposition => SolidOperator::Superposition,
+        OperatorName::FullBounceBack if has_free => {
+            let problem = "free grains are unstable with it: what a grain takes of the fluid's momentum in a step is twice \
+                           what it holds";
+            let remedy = "take `operator = \"bounce_back\"`, or grains that are fixed or whose motion is prescribed";
+            return Err(Trouble::new("solid.operator", problem, remedy));
+        }
+        OperatorName::FullBounceBack => SolidOperator::FullBounceBack,
     };
     Ok(Some(SolidPhase { solids, weighting, operator, coverage: coverage(&section)? }))
 }
 
 fn coverage(section: &SolidSection) -> Result<CoverageRule, Trouble> {
-    if section.coverage == CoverageName::Exact {
+    let without_samples = match section.coverage {
+        CoverageName::Exact => Some(CoverageRule::Exact),
+        CoverageName::Linear => Some(CoverageRule::Linear),
+        CoverageName::Sampled => None,
+    };
+    if let Some(rule) = without_samples {
         absent("solid.samples", section.samples.as_ref(), "`coverage = \"sampled\"`")?;
-        return Ok(CoverageRule::Exact);
+        return Ok(rule);
     }
     let remedy = "add `samples = 5`";
     let n = needed("solid.samples", section.samples, "`coverage = \"sampled\"` needs it", remedy)?;

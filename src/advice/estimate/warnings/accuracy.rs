@@ -126,8 +126,8 @@ const AT_MOST: f64 = 2.0 * TOO_LARGE;
 /// The cheapest option that causes no warning, with the scene's collision; else the most accurate.
 fn remedy(outlook: &Outlook) -> String {
     let Outlook { facts, models, collision, kernel, .. } = outlook;
-    let engine = if *kernel { "wgpu" } else { "reference" };
-    let speed = Speed { engine: engine.to_owned(), mrt: 1.0, srt: 1.0 };
+    let engine = if *kernel { EngineName::Wgpu } else { EngineName::Cpu };
+    let speed = Speed { engine, mrt: 1.0, srt: 1.0 };
     let all = options(facts, models, std::slice::from_ref(&speed));
     let is_own = |option: &PlanOption| {
         option.collision == *collision && option.si_dx <= facts.si_dx * (1.0 + 1e-9)

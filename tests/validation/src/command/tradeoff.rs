@@ -15,7 +15,7 @@ use crate::tradeoff::measure::Runner;
 use crate::tradeoff::parameters::{Flow, Parameters};
 use crate::tradeoff::record::SweepLog;
 use crate::tradeoff::row::Row;
-use crate::tradeoff::sweep::runs;
+use crate::tradeoff::sweep::{operators, runs};
 use crate::tradeoff::trial::trials;
 use crate::tradeoff::{cost, effects, figures, tables};
 use psmrt::command::say::{say, tell};
@@ -35,6 +35,9 @@ pub struct TradeoffRequest {
     /// Only the configurations that are held back from the fits (golden/tradeoff/held_back.csv)
     #[arg(long, conflicts_with_all = ["case", "quick"])]
     pub held_back: bool,
+    /// Only the runs that compare the operators of the solid in fixed beds
+    #[arg(long, conflicts_with_all = ["case", "quick", "held_back"])]
+    pub operators: bool,
     /// Folder for the rows, which are added to those that are there, and for what is made of them
     #[arg(long, value_name = "DIR", default_value = "out/tradeoff")]
     pub out: PathBuf,
@@ -53,6 +56,8 @@ pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), Failure> {
     let mut runner = Runner::new(&request.golden, gpu.clone())?;
     let (file, what) = if request.held_back {
         ("held_back_results.csv", " --held-back")
+    } else if request.operators {
+        ("operators.csv", " --operators")
     } else {
         ("sweep.csv", "")
     };
@@ -77,7 +82,7 @@ pub fn tradeoff(request: &TradeoffRequest, json: bool) -> Result<(), Failure> {
         }
         record.add(row).map_err(CaseError::from)?;
     }
-    if !request.held_back {
+    if !request.held_back && !request.operators {
         summarise(request, gpu.as_ref(), &record.rows)?;
     }
     let (folder, rows) = (request.out.display(), record.rows.len());
@@ -163,6 +168,9 @@ fn wanted(request: &TradeoffRequest) -> Result<Vec<Parameters>, Failure> {
             .iter()
             .map(|row| Parameters::from_row(row))
             .collect::<Result<_, _>>()?);
+    }
+    if request.operators {
+        return Ok(operators());
     }
     let flows = match &request.case {
         None => Flow::ALL.to_vec(),

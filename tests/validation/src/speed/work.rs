@@ -3,6 +3,7 @@
 use psmrt::engine::{Block, Coupled, EngineName, EngineStop, StartError, starting_from};
 use psmrt::kernel::Gpu;
 use psmrt_reference::collision::{Collision, Preset};
+use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::{Domain, DomainError, Face, Faces};
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SolidPhase};
@@ -73,6 +74,11 @@ pub fn works(side: usize) -> Result<Vec<Work>, DomainError> {
     let held = fluid(mrt).with_solids(bed(side, 16, 0.6, still));
     let moving = fluid(mrt).with_solids(bed(side, 16, 0.4, velocity));
     let small = fluid(mrt).with_solids(bed(side, 8, 0.13, velocity));
+    let linear = |setup: &Setup| {
+        let phase = setup.solid_phase.clone().unwrap_or_default();
+        setup.clone().with_solids(SolidPhase { coverage: CoverageRule::Linear, ..phase })
+    };
+    let (moving_linear, small_linear) = (linear(&moving), linear(&small));
     let work = |name, setup, besides| Work { name, setup, besides };
     Ok(vec![
         work("MRT", fluid(mrt), Besides::Nothing),
@@ -82,7 +88,17 @@ pub fn works(side: usize) -> Result<Vec<Work>, DomainError> {
         work("PS-MRT, fixed bed of 0.6", held.clone(), Besides::Nothing),
         work("PS-MRT, fixed bed of 0.6, forces", held, Besides::Forces),
         work("PS-MRT, bed of 0.4 on the move, forces", moving, Besides::Forces),
+        work(
+            "PS-MRT, bed of 0.4 on the move, forces, linear coverage",
+            moving_linear,
+            Besides::Forces,
+        ),
         work("PS-MRT, grains of 4 cells on the move, forces", small, Besides::Forces),
+        work(
+            "PS-MRT, grains of 4 cells on the move, forces, linear coverage",
+            small_linear,
+            Besides::Forces,
+        ),
     ])
 }
 

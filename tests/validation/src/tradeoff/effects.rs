@@ -4,6 +4,7 @@ use crate::tradeoff::parameters::{Flow, Parameters, Storage};
 use crate::tradeoff::row::Row;
 use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
+use psmrt_reference::coverage::CoverageRule;
 
 /// A parameter, turned.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,9 +69,12 @@ fn turned(parameters: &Parameters) -> Option<(String, Parameters)> {
     } else if parameters.operator != "bounce_back" {
         default.operator = "bounce_back".to_owned();
         "operator superposition".to_owned()
-    } else if parameters.samples != 0 {
-        default.samples = 0;
-        format!("coverage sampled {0} x {0} x {0}", parameters.samples)
+    } else if let CoverageRule::Sampled { n } = parameters.coverage {
+        default.coverage = CoverageRule::Exact;
+        format!("coverage sampled {n} x {n} x {n}")
+    } else if parameters.coverage == CoverageRule::Linear {
+        default.coverage = CoverageRule::Exact;
+        "coverage linear".to_owned()
     } else if parameters.collision != Preset::DHumieres {
         default.collision = Preset::DHumieres;
         format!("collision {}", parameters.collision.title())

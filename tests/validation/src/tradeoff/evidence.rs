@@ -6,6 +6,7 @@ use psmrt::advice::tradeoff::model::{LEAST_TAU, SolidMethod};
 use psmrt::advice::tradeoff::runs::GrainPoint;
 use psmrt::table::{Table, TableError};
 use psmrt_reference::collision::Preset;
+use psmrt_reference::coverage::CoverageRule;
 
 /// The committed rows.
 const SWEEP: &str = include_str!("../../../../golden/tradeoff/sweep.csv");
@@ -54,7 +55,7 @@ pub fn committed_sweep() -> Result<Vec<Row>, TableError> {
 /// Whether a row has exact solid fractions, double precision and slow flow.
 fn is_plain(row: &Row) -> bool {
     let parameters = &row.parameters;
-    parameters.samples == 0
+    parameters.coverage == CoverageRule::Exact
         && parameters.storage == Storage::F64
         && parameters.reynolds() < MOST_REYNOLDS
 }

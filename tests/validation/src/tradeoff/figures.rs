@@ -1,6 +1,7 @@
 //! The figures: error against time with the front drawn, one a flow; predictions beside what was measured.
 
 use psmrt_reference::collision::Preset;
+use psmrt_reference::coverage::CoverageRule;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::cost::seconds_per_update;
@@ -65,7 +66,7 @@ pub fn placed<'a>(
 fn converges(row: &Row) -> bool {
     row.parameters.weight == "NT"
         && row.parameters.operator == "bounce_back"
-        && row.parameters.samples == 0
+        && !matches!(row.parameters.coverage, CoverageRule::Sampled { .. })
 }
 
 /// The runs of the front among them, the cheapest first: of all, or of those whose models converge. What
@@ -89,7 +90,8 @@ fn series_of(row: &Row) -> &'static str {
         (_, "wgpu") => "kernel, f32 shifted",
         _ if parameters.weight == "eps" => "weight B = eps",
         _ if parameters.operator == "superposition" => "superposition",
-        _ if parameters.samples > 0 => "sampled coverage",
+        _ if parameters.coverage == CoverageRule::Linear => "linear coverage",
+        _ if parameters.coverage != CoverageRule::Exact => "sampled coverage",
         _ => match parameters.collision {
             Preset::Srt => "SRT",
             Preset::DHumieres => "MRT d'Humieres (default)",
@@ -98,20 +100,21 @@ fn series_of(row: &Row) -> &'static str {
     }
 }
 
-const SERIES: [(&str, Marker); 9] = [
+const SERIES: [(&str, Marker); 10] = [
     ("MRT d'Humieres (default)", Marker::Circle),
     ("SRT", Marker::Square),
     ("TRT 3/16", Marker::TriangleUp),
     ("weight B = eps", Marker::Diamond),
     ("superposition", Marker::TriangleDown),
     ("sampled coverage", Marker::Ring),
+    ("linear coverage", Marker::Square),
     ("kernel, f32 shifted", Marker::Cross),
     ("f32 unshifted (storage only)", Marker::TriangleUp),
     ("f16 shifted (storage only)", Marker::Circle),
 ];
 
 /// Title of a flow in a geometry.
-fn title((flow, geometry): &(Flow, String)) -> String {
+pub fn title((flow, geometry): &(Flow, String)) -> String {
     match flow {
         Flow::Poiseuille => "Flow between plates, 8 to 24 cells".to_owned(),
         Flow::Sc => format!("Simple cubic array, solid fraction {geometry}"),

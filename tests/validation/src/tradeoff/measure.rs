@@ -19,12 +19,10 @@ use psmrt::run::{End, RunError};
 use psmrt::scene::check::records::middle;
 use std::sync::Arc;
 
-/// Bytes that an engine keeps per cell for populations: two copies of 19 of 8 or 4 bytes.
-const BYTES: [(&str, f64); 2] = [("reference", 2.0 * 19.0 * 8.0), ("wgpu", 2.0 * 19.0 * 4.0)];
-
 /// Runs settings on the engines at hand.
 pub struct Runner {
     oracle: Bench,
+    cpu: Bench,
     kernel: Option<Bench>,
     literature: Literature,
     machine: String,
@@ -42,12 +40,13 @@ impl Runner {
             random_drag: oracle.literature("tradeoff", "random_drag.csv")?,
         };
         let kernel = gpu.map(|gpu| Bench::new(golden, EngineName::Wgpu, Some(gpu), |_| {}));
-        Ok(Runner { oracle, kernel, literature, machine: super::machine_words() })
+        let cpu = Bench::new(golden, EngineName::Cpu, None, |_| {});
+        Ok(Runner { oracle, cpu, kernel, literature, machine: super::machine_words() })
     }
 
     /// Whether it can run these parameters here.
     pub fn can(&self, parameters: &Parameters) -> bool {
-        parameters.engine == "reference" || self.kernel.is_some()
+        parameters.engine != "wgpu" || self.kernel.is_some()
     }
 
     /// Makes one run. A run that breaks or does not become steady is a row too, without an error.
@@ -59,6 +58,7 @@ impl Runner {
             None if on_kernel => {
                 return Err(CaseError::table("there is no adapter for engine wgpu".to_owned()));
             }
+            _ if parameters.engine == "cpu" => &mut self.cpu,
             _ => &mut self.oracle,
         };
         let emulated = parameters.is_emulated();
@@ -98,8 +98,10 @@ impl Runner {
         row.end = if steady { "steady" } else { "limit" }.to_owned();
         row.cells = finished.scene.setup.domain.cell_count() as u64;
         row.steps = finished.engine.steps();
-        let bytes = BYTES.iter().find(|(engine, _)| *engine == parameters.engine);
-        row.mebibytes = row.cells as f64 * bytes.map_or(f64::NAN, |(_, b)| *b) / f64::from(1 << 20);
+        let bytes = EngineName::from_word(&parameters.engine).map_or(f64::NAN, |engine| {
+            19.0 * f64::from(engine.copies()) * f64::from(engine.bytes_of_number())
+        });
+        row.mebibytes = row.cells as f64 * bytes / f64::from(1 << 20);
         if steady || emulated {
             row.error = Some(error(parameters, drag, &finished)?).filter(|error| error.is_finite());
         }

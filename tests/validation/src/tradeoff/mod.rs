@@ -12,6 +12,7 @@
 //! | `cost.rs`, `effects.rs` | what a cell update costs; what one parameter alone does |
 //! | `evidence.rs`, `evidence_low.rs` | the runs that error models are fitted to |
 //! | `fit.rs`, `fitting.rs`, `trial.rs` | the fits, and what was held back from them |
+//! | `operators.rs` | the operators of the solid beside each other |
 //! | `coefficients.rs` | what the product predicts by, made from all this |
 //! | `figures.rs`, `tables.rs` | what is shown |
 
@@ -24,6 +25,7 @@ pub mod figures;
 pub mod fit;
 pub mod fitting;
 pub mod measure;
+pub mod operators;
 pub mod parameters;
 pub mod pareto;
 pub mod record;

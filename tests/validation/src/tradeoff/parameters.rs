@@ -2,6 +2,7 @@
 
 use psmrt::table::TableError;
 use psmrt_reference::collision::Preset;
+use psmrt_reference::coverage::CoverageRule;
 
 /// Names of the columns that a row of parameters has.
 pub const COLUMNS: [&str; 11] = [
@@ -126,13 +127,13 @@ pub struct Parameters {
     pub tau: f64,
     /// Collision of the fluid.
     pub collision: Preset,
-    /// Weight `B`: `NT` or `eps`.
+    /// Weight `B`: `NT`, `eps` or `viscous`.
     pub weight: String,
-    /// Collision in the solid: `bounce_back` or `superposition`.
+    /// Collision in the solid, as scenes spell it.
     pub operator: String,
-    /// Solid fraction of a cell: 0 for exact, else sample points along each axis.
-    pub samples: u32,
-    /// Engine: `reference` or `wgpu`.
+    /// How the solid fraction of a cell is found.
+    pub coverage: CoverageRule,
+    /// Engine: `reference`, `cpu` or `wgpu`.
     pub engine: String,
     /// How populations are kept.
     pub storage: Storage,
@@ -151,7 +152,7 @@ impl Parameters {
             collision,
             weight: "NT".to_owned(),
             operator: "bounce_back".to_owned(),
-            samples: 0,
+            coverage: CoverageRule::Exact,
             engine: "reference".to_owned(),
             storage: Storage::F64,
             lattice_velocity: 0.0,
@@ -200,9 +201,10 @@ impl Parameters {
 
     /// The values of [`COLUMNS`].
     pub fn row(&self) -> Vec<String> {
-        let coverage = match self.samples {
-            0 => "exact".to_owned(),
-            n => format!("sampled_{n}"),
+        let coverage = match self.coverage {
+            CoverageRule::Exact => "exact".to_owned(),
+            CoverageRule::Sampled { n } => format!("sampled_{n}"),
+            CoverageRule::Linear => "linear".to_owned(),
         };
         vec![
             self.flow.word().to_owned(),
@@ -227,11 +229,12 @@ impl Parameters {
         };
         let text = |column: usize| row.get(column).cloned().ok_or_else(|| wrong(column));
         let number = |column: usize| text(column)?.parse().map_err(|_| wrong(column));
-        let samples = match text(7)?.as_str() {
-            "exact" => 0,
+        let coverage = match text(7)?.as_str() {
+            "exact" => CoverageRule::Exact,
+            "linear" => CoverageRule::Linear,
             word => {
                 let count = word.strip_prefix("sampled_").and_then(|count| count.parse().ok());
-                count.ok_or_else(|| wrong(7))?
+                CoverageRule::Sampled { n: count.ok_or_else(|| wrong(7))? }
             }
         };
         let storage = text(9)?;
@@ -244,7 +247,7 @@ impl Parameters {
             collision: Preset::from_word(&text(4)?).ok_or_else(|| wrong(4))?,
             weight: text(5)?,
             operator: text(6)?,
-            samples,
+            coverage,
             engine: text(8)?,
             storage: storage.ok_or_else(|| wrong(9))?,
             lattice_velocity: number(10)?,

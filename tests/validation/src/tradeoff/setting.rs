@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::lattice::viscosity;
 
 use crate::cases::CaseError;
@@ -84,13 +85,20 @@ impl Setting {
         changes.push(format!("time.tau={}", parameters.tau));
         changes.extend(preset_changes(parameters.collision));
         if parameters.flow != Flow::Poiseuille {
-            let weight =
-                if parameters.weight == "eps" { "solid_fraction" } else { "noble_torczynski" };
+            let weight = match &*parameters.weight {
+                "eps" => "solid_fraction",
+                "viscous" => "viscous",
+                _ => "noble_torczynski",
+            };
             changes.push(format!("solid.weighting=\"{weight}\""));
             changes.push(format!("solid.operator=\"{}\"", parameters.operator));
-            if parameters.samples > 0 {
-                changes.push("solid.coverage=\"sampled\"".to_owned());
-                changes.push(format!("solid.samples={}", parameters.samples));
+            match parameters.coverage {
+                CoverageRule::Exact => {}
+                CoverageRule::Linear => changes.push("solid.coverage=\"linear\"".to_owned()),
+                CoverageRule::Sampled { n } => {
+                    changes.push("solid.coverage=\"sampled\"".to_owned());
+                    changes.push(format!("solid.samples={n}"));
+                }
             }
         }
         Ok(Setting { scene: format!("tradeoff/{scene}.toml"), changes, drag })
@@ -160,7 +168,7 @@ fn array(
         format!("body_force.acceleration=[{:e}, 0.0, 0.0]", force * si_dx / (si_dt * si_dt)),
         format!("initial.velocity=[{:e}, 0.0, 0.0]", start * si_dx / si_dt),
         format!("records[0].every_steps={rows}"),
-        format!("stop.steps={}", if parameters.is_emulated() { 20.0 } else { 100.0 } * rows),
+        format!("stop.steps={}", if parameters.is_emulated() { 20.0 } else { 400.0 } * rows),
         format!("stop.steady.tolerance={:e}", steady_tolerance(parameters, 2e-5)),
     ];
     for (i, site) in sites.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use crate::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt_reference::collision::Preset;
+use psmrt_reference::coverage::CoverageRule;
 
 use Preset::{DHumieres, Srt, Trt};
 
@@ -21,6 +22,51 @@ pub fn runs(flow: Flow, quick: bool) -> Vec<Parameters> {
         Flow::Seepage => arrays(flow, "0.6", &[8, 12, 16, 20, 24, 32], quick),
         Flow::Random => random(quick),
     }
+}
+
+/// Operator and weight of the runs that compare operators.
+pub const OPERATORS: [(&str, &str); 4] = [
+    ("bounce_back", "NT"),
+    ("superposition", "NT"),
+    ("full_bounce_back", "NT"),
+    ("full_bounce_back", "viscous"),
+];
+
+/// The runs that compare operators in fixed beds, on the CPU engine in double precision.
+pub fn operators() -> Vec<Parameters> {
+    let beds = [
+        (Flow::Sc, "0.064"),
+        (Flow::Sc, "0.343"),
+        (Flow::Bcc, "0.343"),
+        (Flow::Fcc, "0.343"),
+        (Flow::Fcc, "0.6"),
+        (Flow::Random, "0.2"),
+        (Flow::Random, "0.45"),
+    ];
+    let taus = [0.55, 0.6, 0.8, 1.0, 1.5];
+    let mut runs = Vec::new();
+    for cells in [12, 16, 24, 32] {
+        for (flow, geometry) in beds {
+            let of_size = grid(flow, geometry, &[cells], &taus, &[DHumieres]);
+            let is_fine = cells == 32
+                && !matches!((flow, geometry), (Flow::Sc, "0.343") | (Flow::Fcc, "0.6"));
+            let with_others = grid(flow, geometry, &[cells], &taus, &[Srt, Trt]);
+            for (operator, weight) in OPERATORS {
+                let set = |run: &mut Parameters| {
+                    operator.clone_into(&mut run.operator);
+                    weight.clone_into(&mut run.weight);
+                    "cpu".clone_into(&mut run.engine);
+                };
+                if !is_fine {
+                    runs.extend(changed(&of_size, set));
+                }
+                if cells == 16 {
+                    runs.extend(changed(&with_others, set));
+                }
+            }
+        }
+    }
+    runs
 }
 
 /// Every number of cells with every relaxation time and collision.
@@ -90,10 +136,11 @@ fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Paramet
     runs.extend(changed(&solid, |parameters| "eps".clone_into(&mut parameters.weight)));
     runs.extend(changed(&solid, |parameters| "superposition".clone_into(&mut parameters.operator)));
     runs.extend(changed(&grid(&[8, 16], &FEW_TAUS, &[DHumieres]), on_kernel));
-    let sampled: &[u32] = if flow == Flow::Sc { &[1, 2, 3, 5, 10] } else { &[2, 5] };
+    let sampled: &[usize] = if flow == Flow::Sc { &[1, 2, 3, 5, 10] } else { &[2, 5] };
     for &samples in sampled {
-        runs.extend(changed(&coarse, |parameters| parameters.samples = samples));
+        runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Sampled { n: samples }));
     }
+    runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Linear));
     if flow != Flow::Sc {
         return runs;
     }
@@ -140,8 +187,9 @@ fn settling(quick: bool) -> Vec<Parameters> {
     runs.extend(changed(&coarse, |parameters| "eps".clone_into(&mut parameters.weight)));
     runs.extend(changed(&coarse, on_kernel));
     for samples in [2, 5] {
-        runs.extend(changed(&coarse, |parameters| parameters.samples = samples));
+        runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Sampled { n: samples }));
     }
+    runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Linear));
     runs.extend(grid(&[8], &[2.0, 1.5, 1.0, 0.8, 0.6], &[DHumieres]));
     runs.extend(grid(&[8], &[1.5, 0.8], &[Srt, Trt]));
     runs.extend(changed(&grid(&[8], &[1.5, 0.8], &[DHumieres]), on_kernel));

@@ -36,44 +36,14 @@ pub fn solid_fraction(centre: [f64; 3], radius: f64) -> f64 {
     volume.clamp(0.0, 1.0)
 }
 
-/// The cells along each axis, by their lowest corners, among which are all that a ball touches.
-pub fn cells_about(centre: [f64; 3], radius: f64) -> [RangeInclusive<i64>; 3] {
-    centre.map(|c| floor(c - radius)..=floor(c + radius))
-}
-
-/// The cell of a coordinate.
-#[expect(clippy::cast_possible_truncation, reason = "beyond 2^63 it saturates")]
-fn floor(coordinate: f64) -> i64 {
-    coordinate.floor() as i64
-}
-
-/// Tells the solid fraction of each of `cells` that a ball of `radius` about `centre` touches, by the cell's
-/// lowest corner.
-pub fn solid_fractions(
-    centre: [f64; 3],
-    radius: f64,
-    cells: &[RangeInclusive<i64>; 3],
-    mut tell: impl FnMut([i64; 3], f64),
-) {
-    rows_of_fractions(centre, radius, cells, |[x, y, z], fractions| {
-        for (i, fraction) in (x..).zip(fractions) {
-            tell([i, y, z], *fraction);
-        }
-    });
-}
-
-/// Tells the solid fractions of those of `cells` that a ball of `radius` about `centre` touches, row by row, by the
-/// lowest corner of the row's first. The same sum as [`solid_fraction`]; cells that share a corner share its volume, and
+/// As [`super::rows_of_fractions`]. The same sum as [`solid_fraction`]; cells that share a corner share its volume, and
 /// corners on a line or in a plane share the parts of it that depend on two axes or on one.
-pub fn rows_of_fractions(
+pub(super) fn rows(
     centre: [f64; 3],
     radius: f64,
     cells: &[RangeInclusive<i64>; 3],
     mut tell: impl FnMut([i64; 3], &[f64]),
 ) {
-    if cells.iter().any(RangeInclusive::is_empty) {
-        return;
-    }
     let [x, y, z] = &[0, 1, 2].map(|axis| Nodes::along(centre[axis], radius, &cells[axis]));
     let wedges = [[x, y], [y, z], [z, x]].map(|[a, b]| {
         let mut wedges = vec![0.0; a.len() * b.len()];
@@ -277,19 +247,4 @@ fn angle<S: Simd>(token: S, opposite: Doubles<S>, others: Doubles<S>) -> Doubles
         series = all(1.0 / f64::from(2 * k + 1)) - square * series;
     }
     all(4.0) * quarter * series
-}
-
-/// The share of `n`³ points of the cell, the midpoints of its `n`³ parts, that lie in the ball.
-pub fn sampled_fraction(centre: [f64; 3], radius: f64, n: usize) -> f64 {
-    let offsets: Vec<f64> =
-        (0..n).map(|i| (2.0 * i as f64 + 1.0) / (2.0 * n as f64) - 0.5).collect();
-    let squares = |c: f64| offsets.iter().map(move |x| (x - c) * (x - c));
-    let mut inside = 0_u32;
-    for x2 in squares(centre[0]) {
-        for y2 in squares(centre[1]) {
-            let room = radius * radius - x2 - y2;
-            inside += squares(centre[2]).map(|z2| u32::from(z2 <= room)).sum::<u32>();
-        }
-    }
-    f64::from(inside) / (n * n * n) as f64
 }
