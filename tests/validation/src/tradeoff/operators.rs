@@ -1,6 +1,7 @@
 //! The operators of the solid in fixed beds, beside each other: error against tau, and against what a run costs.
 
 use psmrt_reference::collision::Preset;
+use psmrt_reference::coverage::CoverageRule;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::figures::title;
@@ -43,6 +44,7 @@ pub fn against_tau(
             && run.geometry == geometry
             && run.cells == cells
             && run.collision == Preset::DHumieres
+            && run.coverage == CoverageRule::Exact
             && run.operator == operator
             && run.weight == weight
     };
@@ -106,6 +108,7 @@ pub fn figures(rows: &[Row]) -> Vec<Figure> {
                 run.flow == *flow
                     && run.geometry == *geometry
                     && run.collision == Preset::DHumieres
+                    && run.coverage == CoverageRule::Exact
                     && run.operator == operator
                     && run.weight == weight
             });

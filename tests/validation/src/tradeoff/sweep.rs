@@ -63,6 +63,11 @@ pub fn operators() -> Vec<Parameters> {
                 if cells == 16 {
                     runs.extend(changed(&with_others, set));
                 }
+                if cells < 32 && operator != "superposition" {
+                    let mut linear = changed(&of_size, set);
+                    linear.iter_mut().for_each(|run| run.coverage = CoverageRule::Linear);
+                    runs.extend(linear);
+                }
             }
         }
     }
@@ -140,7 +145,6 @@ fn arrays(flow: Flow, fraction: &str, cells: &[u32], quick: bool) -> Vec<Paramet
     for &samples in sampled {
         runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Sampled { n: samples }));
     }
-    runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Linear));
     if flow != Flow::Sc {
         return runs;
     }
@@ -189,7 +193,6 @@ fn settling(quick: bool) -> Vec<Parameters> {
     for samples in [2, 5] {
         runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Sampled { n: samples }));
     }
-    runs.extend(changed(&coarse, |run| run.coverage = CoverageRule::Linear));
     runs.extend(grid(&[8], &[2.0, 1.5, 1.0, 0.8, 0.6], &[DHumieres]));
     runs.extend(grid(&[8], &[1.5, 0.8], &[Srt, Trt]));
     runs.extend(changed(&grid(&[8], &[1.5, 0.8], &[DHumieres]), on_kernel));
