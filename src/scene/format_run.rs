@@ -162,7 +162,7 @@ pub struct EngineSection {
 pub enum EngineKind {
     /// The oracle.
     Reference,
-    /// The CPU engine: computes what the oracle does, to round-off in double precision, some twenty times as fast.
+    /// The CPU engine: computes what the oracle does, to round-off in double precision, some ten times as fast.
     #[default]
     Cpu,
     /// The kernel.
