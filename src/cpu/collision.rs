@@ -227,6 +227,7 @@ impl Rules {
 /// The rules in vectors: rates over the squared lengths of the rows of `M`, and the numbers in the formulas.
 #[derive(Clone, Copy)]
 pub(super) struct Collider<V> {
+    zero: V,
     one: V,
     half: V,
     two: V,
@@ -270,6 +271,7 @@ impl<V: Lanes> Collider<V> {
             std::array::from_fn(|row| all(value(rates[row]) / SQUARED_LENGTHS[row]))
         };
         Collider {
+            zero: all(0.0),
             one: all(1.0),
             half: all(0.5),
             two: all(2.0),
@@ -319,6 +321,7 @@ impl<V: Lanes> Collider<V> {
         let cell = self.cell(f);
         let inverse = self.one.over(epsilon.max(self.tiny));
         // The mean by what each fills.
+        #[expect(clippy::manual_map, reason = "a closure may be compiled without the vectors")]
         let solid_velocity = match motion {
             None => None,
             Some(sum) => Some(scaled(sum, inverse)),
@@ -541,8 +544,7 @@ impl<V: Lanes> Collider<V> {
                     cell.sums.odd.times_plus(-self.one, &twice)
                 }
             };
-            let nothing = self.one - self.one;
-            return Change { rest: nothing, even: odd.times(nothing), odd };
+            return Change { rest: self.zero, even: odd.times(self.zero), odd };
         }
         let u = scaled(cell.sums.j, cell.inverse);
         let fluid = self.squares(u);
