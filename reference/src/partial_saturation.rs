@@ -31,7 +31,7 @@ pub enum Weighting {
 /// In steady creeping flow the shear that crosses a cell is proportional to the viscosity, `(tau - 1/2)/3`. What a solid
 /// takes from the momentum of a cell, over what it leaves, must be so too, or the place of the wall depends on tau. For a
 /// plane wall under full bounce-back the place is right to first order with `c = 1/(1 + tau + 1/2)` or so; spheres of 8 to
-/// 16 cells per diameter, whose error is one of second order besides, are least in error with 0.6 (golden/operators).
+/// 16 cells per diameter, whose error is one of second order besides, are least in error with 0.6 (golden/tradeoff/operators.csv).
 pub const VISCOUS_FACTOR: f64 = 0.6;
 
 impl Weighting {
