@@ -26,6 +26,11 @@ pub fn images(v: &Vec3) -> Vec<Vec3> {
     images
 }
 
+/// Root of the mean square of an error over some cuts of a cell.
+pub fn rms(cuts: &[Vec3], error: impl Fn(&Vec3) -> f64) -> f64 {
+    (cuts.iter().map(|centre| error(centre).powi(2)).sum::<f64>() / cuts.len() as f64).sqrt()
+}
+
 /// Uniform in the cube -1..1.
 pub fn anywhere(random: &mut Random) -> Vec3 {
     random.vector(1.0)

@@ -3,7 +3,7 @@
 
 use crate::common;
 
-use common::cuts::{assert_close, cut_of_radius, images};
+use common::cuts::{assert_close, cut_of_radius, images, rms};
 use common::random::Random;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::coverage::{CoverageRule, exact_fraction, linear_fraction};
@@ -53,9 +53,7 @@ fn linear_fractions_are_two_hundredths_off_the_exact_ones() {
     let mut random = Random(9);
     for radius in [2.0, 4.0, 20.0] {
         let cuts: Vec<Vec3> = (0..4000).map(|_| cut_of_radius(&mut random, radius)).collect();
-        let error = |c: &Vec3| linear_fraction(c, radius) - exact_fraction(c, radius);
-        let mean_square = cuts.iter().map(|c| error(c).powi(2)).sum::<f64>() / cuts.len() as f64;
-        let rms = mean_square.sqrt();
+        let rms = rms(&cuts, |c| linear_fraction(c, radius) - exact_fraction(c, radius));
         // A plane at distance s from the centre of a cell leaves 1/2 - s of it if it lies across an axis. Across a
         // diagonal of a face it leaves 1/2 - √2 s + s² and reaches to s = 1/√2, where the linear form has ended at 1/2:
         // there it is off by 0.043 at the most. Of that the root of the mean square over all planes is about a half.

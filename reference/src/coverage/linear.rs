@@ -2,7 +2,7 @@
 
 use crate::lattice::Vec3;
 
-/// The smallest radius, in cells, for which [`linear_fraction`] is meant: at it a sphere fills a whole cell at most.
+/// The smallest radius, in cells, for which [`linear_fraction`] is meant: a smaller sphere hardly fills a cell.
 pub const SMALLEST_LINEAR_RADIUS: f64 = 1.0;
 
 /// Solid fraction of a sphere of `radius` cells (at least [`SMALLEST_LINEAR_RADIUS`]) whose centre lies at `centre` from
