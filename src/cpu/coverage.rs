@@ -8,7 +8,6 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
-use super::rigid::EIGHT;
 use crate::ball::{cells_about, rows_of_fractions};
 use crate::lanes::Real;
 
@@ -17,7 +16,7 @@ use crate::lanes::Real;
 struct Image<T> {
     /// The point that arms are measured from.
     centre: Vec3,
-    /// Solid fractions of the cells, span by span, and zeros behind them, so that there are always eight to be read.
+    /// Solid fractions of the cells, span by span.
     epsilons: Vec<T>,
     spans: Vec<Span>,
     /// Which of the spans lie in which run of cells.
@@ -48,7 +47,7 @@ pub(super) struct Row<'a, T> {
     /// The first, counted from the first of the run.
     pub(super) start: usize,
     pub(super) count: usize,
-    /// Their solid fractions, with at least seven numbers more behind them that mean nothing.
+    /// Their solid fractions.
     pub(super) epsilons: &'a [T],
     /// From the image's centre to that of the first cell.
     pub(super) arm: Vec3,
@@ -155,6 +154,25 @@ impl<T: Real> Coverage<T> {
         &self.parts[self.begins[run]..self.begins[run + 1]]
     }
 
+    /// Reads a little of what each part of a run covers, so that the memory of all is fetched at once: one after the other,
+    /// each would be waited for.
+    pub(super) fn fetch(&self, run: usize) {
+        let mut sum = 0;
+        for part in self.parts(run) {
+            let image = &self.images[part.solid][part.image];
+            let (first, last) = (part.spans.start, part.spans.end - 1);
+            let [first, last] = [first, last].map(|span| image.spans[span]);
+            sum += first.count + last.count;
+            let mut at = first.start as usize;
+            let end = (last.start + last.count) as usize;
+            while at < end {
+                sum += u32::from(image.epsilons[at] != T::default());
+                at += 16;
+            }
+        }
+        std::hint::black_box(sum);
+    }
+
     /// The cells of a part, row by row, in the run whose first cell is `first`.
     pub(super) fn rows(&self, part: &Part, first: usize) -> impl Iterator<Item = Row<'_, T>> {
         let image = &self.images[part.solid][part.image];
@@ -163,7 +181,7 @@ impl<T: Real> Coverage<T> {
             Row {
                 start: span.cell as usize - first,
                 count,
-                epsilons: &image.epsilons[start..],
+                epsilons: &image.epsilons[start..start + count],
                 arm: Vec3::from(span.at.map(|x| f64::from(x) + 0.5)) - image.centre,
             }
         })
@@ -218,8 +236,7 @@ impl<T: Real> Image<T> {
     }
 
     /// The image, if it touches a cell.
-    fn finished(mut self) -> Option<Self> {
-        self.epsilons.extend([T::default(); EIGHT]);
+    fn finished(self) -> Option<Self> {
         (!self.spans.is_empty()).then_some(self)
     }
 

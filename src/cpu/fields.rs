@@ -1,8 +1,7 @@
 //! What solids cover of one run of cells, as fields that a pass can read vector by vector.
 
-use std::ops::Range;
-
 use psmrt_reference::directions::{C, OPPOSITE, Q};
+use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Solid;
 use pulp::{Simd, WithSimd};
 
@@ -14,6 +13,10 @@ use crate::lanes::Real;
 /// Cells that are told apart together: if one of them is covered, all are collided as if they were. (Where a cell is
 /// not, that makes no difference: the weight of the solid's part is 0, that of the fluid's 1.)
 const BLOCK: usize = 8;
+
+/// Cells that are left out together, if solids at rest fill all of them: as many as the longest vector has, so that the
+/// results are those of any other.
+const WHOLE: usize = 16;
 
 /// Sums over the solids in each cell of a run.
 ///
@@ -27,9 +30,27 @@ pub(super) struct Fields<T> {
     has_motion: bool,
     /// For each block, whether solids cover some of it.
     covered: Vec<bool>,
+    /// For each [`WHOLE`] cells, whether solids at rest fill them; empty unless [`Self::find_filled`] has looked.
+    filled: Vec<bool>,
+    /// Row by row, solid by solid, what each solid covers; and its solid fractions there, one row behind the other, each
+    /// filled up with zeros to whole eights.
+    rows: Vec<RowOf>,
+    fractions: Vec<[T; EIGHT]>,
     meetings: Vec<Meeting>,
     /// For each cell the number of its meeting, after one of none; empty until solids meet.
     meeting_of: Vec<u32>,
+}
+
+/// Cells of a row, one behind the other, that a solid covers.
+#[derive(Clone, Debug)]
+pub(super) struct RowOf {
+    pub(super) solid: usize,
+    /// The first, counted from the first of the run.
+    start: usize,
+    /// How many times eight.
+    eights: usize,
+    /// From the solid's centre to that of the first cell.
+    pub(super) arm: Vec3,
 }
 
 /// A cell in which solids meet.
@@ -40,7 +61,8 @@ struct Meeting {
     squares: [f64; 6],
 }
 
-/// What loads are made of in covered cells: density less 1 and momentum before the collision, and `B/Σ ε_s`.
+/// What loads are made of in covered cells: density and momentum before the collision, times `B/Σ ε_s`, and that itself.
+/// (Where only cells are looked at: density less 1, and momentum.)
 #[derive(Clone, Debug)]
 pub(super) struct Seen<T> {
     pub(super) of: [Vec<T>; 5],
@@ -73,10 +95,13 @@ impl<T: Real> Fields<T> {
     /// Those of a run without solids.
     pub(super) fn new(cells: usize) -> Self {
         Fields {
-            epsilon: vec![T::default(); cells + EIGHT],
+            epsilon: vec![T::default(); cells.next_multiple_of(BLOCK) + EIGHT],
             motion: Default::default(),
             has_motion: false,
             covered: vec![false; cells.div_ceil(BLOCK)],
+            filled: Vec::new(),
+            rows: Vec::new(),
+            fractions: Vec::new(),
             meetings: Vec::new(),
             meeting_of: Vec::new(),
         }
@@ -87,6 +112,21 @@ impl<T: Real> Fields<T> {
     pub(super) fn is_covered(&self, at: usize, count: usize) -> bool {
         let (first, last) = (at / BLOCK, (at + count - 1) / BLOCK);
         self.covered[first] || (last > first && self.covered[last])
+    }
+
+    /// Looks which cells solids at rest fill.
+    pub(super) fn find_filled(&mut self, cells: usize) {
+        if !self.has_motion {
+            let one = T::from_f64(1.0);
+            let is_filled = |cells: &[T; WHOLE]| cells.iter().all(|epsilon| *epsilon == one);
+            self.filled = self.epsilon[..cells].as_chunks().0.iter().map(is_filled).collect();
+        }
+    }
+
+    /// Whether solids at rest fill the cells of a vector from `at` on.
+    #[inline(always)]
+    pub(super) fn is_filled(&self, at: usize) -> bool {
+        self.filled.get(at / WHOLE).copied().unwrap_or(false)
     }
 
     /// `Σ ε_s u_s`, if any of the solids has a velocity.
@@ -102,6 +142,7 @@ impl<T: Real> Fields<T> {
         run: usize,
         first: usize,
     ) {
+        coverage.fetch(run);
         let parts = coverage.parts(run);
         self.has_motion = parts.iter().any(|part| solids[part.solid].has_velocity());
         if self.has_motion {
@@ -111,45 +152,56 @@ impl<T: Real> Fields<T> {
         for part in parts {
             let rigid = Rigid::of(&solids[part.solid]);
             for row in coverage.rows(part, first) {
-                let last = row.start + row.count - 1;
-                for block in row.start / BLOCK..=last / BLOCK {
+                for block in row.start / BLOCK..=(row.start + row.count - 1) / BLOCK {
                     self.covered[block] = true;
                 }
                 let along = rigid.along(&row.arm);
-                for x in (0..row.count).step_by(EIGHT) {
-                    let cells = row.start + x..row.start + (x + EIGHT).min(row.count);
-                    self.add_eight(cells, &row.epsilons[x..], &along.from(x));
+                let (eights, rest) = row.epsilons.as_chunks::<EIGHT>();
+                for (number, fractions) in eights.iter().enumerate() {
+                    self.add_eight(
+                        row.start + number * EIGHT,
+                        *fractions,
+                        &along.from(number * EIGHT),
+                    );
                 }
+                if !rest.is_empty() {
+                    let mut fractions = [T::default(); EIGHT];
+                    fractions[..rest.len()].copy_from_slice(rest);
+                    let number = eights.len();
+                    self.add_eight(
+                        row.start + number * EIGHT,
+                        fractions,
+                        &along.from(number * EIGHT),
+                    );
+                }
+                self.rows.push(RowOf {
+                    solid: part.solid,
+                    start: row.start,
+                    eights: row.count.div_ceil(EIGHT),
+                    arm: row.arm,
+                });
             }
         }
     }
 
-    /// Adds what a solid covers of up to eight cells of a row.
+    /// Adds what a solid covers of eight cells from `at` on.
     #[inline(always)]
-    fn add_eight(&mut self, cells: Range<usize>, epsilons: &[T], along: &Along) {
-        let (at, count) = (cells.start, cells.len());
-        let (Some(epsilons), Some(sum)) =
-            (epsilons.first_chunk::<EIGHT>(), self.epsilon[at..].first_chunk_mut::<EIGHT>())
-        else {
-            return;
-        };
+    fn add_eight(&mut self, at: usize, added: [T; EIGHT], along: &Along) {
+        self.fractions.push(added);
+        let Some(sum) = self.epsilon[at..].first_chunk_mut::<EIGHT>() else { return };
         let no = T::default();
-        let (mut added, mut meets) = (*epsilons, false);
+        let (before, mut meets) = (*sum, false);
         for x in 0..EIGHT {
-            added[x] = if x < count { added[x] } else { no };
-            meets |= (sum[x] != no) & (added[x] != no);
-        }
-        let before = *sum;
-        for x in 0..EIGHT {
-            sum[x] = sum[x] + added[x];
+            meets |= (before[x] != no) & (added[x] != no);
+            sum[x] = before[x] + added[x];
         }
         if !self.has_motion {
             return;
         }
         let u_s = along.eight();
         if meets {
-            for x in 0..count {
-                if before[x] != no {
+            for x in 0..EIGHT {
+                if before[x] != no && added[x] != no {
                     let u_s = [u_s[0][x], u_s[1][x], u_s[2][x]];
                     self.meet(at + x, before[x].to_f64(), added[x].to_f64(), &u_s);
                 }
@@ -161,6 +213,20 @@ impl<T: Real> Fields<T> {
                 sum[x] = sum[x] + T::from_f64(added[x].to_f64() * u_s[axis][x]);
             }
         }
+    }
+
+    /// The rows that solids cover, solid by solid, each with its cells from the first on, eight at a time: where they
+    /// start, and the solid fractions.
+    #[inline(always)]
+    pub(super) fn rows(
+        &self,
+    ) -> impl Iterator<Item = (&RowOf, impl Iterator<Item = (usize, &[T; EIGHT])>)> {
+        let mut behind = self.fractions.as_slice();
+        self.rows.iter().map(move |row| {
+            let (fractions, others) = behind.split_at(row.eights);
+            behind = others;
+            (row, fractions.iter().enumerate().map(|(n, eight)| (row.start + n * EIGHT, eight)))
+        })
     }
 
     /// Notes that one more solid, `epsilon` of it with the velocity `u_s`, meets others in a cell, which fill `before`.
@@ -180,23 +246,18 @@ impl<T: Real> Fields<T> {
     }
 
     /// Takes away what [`Self::add`] has added.
-    pub(super) fn clear(&mut self, coverage: &Coverage<T>, run: usize, first: usize) {
-        let zeros = [T::default(); EIGHT];
-        for part in coverage.parts(run) {
-            for row in coverage.rows(part, first) {
-                let last = row.start + row.count - 1;
-                for block in row.start / BLOCK..=last / BLOCK {
-                    self.covered[block] = false;
-                }
-                // Some of the cells behind the row, too: these are cleared anyway.
-                for at in (row.start..=last).step_by(EIGHT) {
-                    let motion = self.motion.iter_mut().filter(|_| self.has_motion);
-                    for sum in motion.chain([&mut self.epsilon]) {
-                        sum[at..at + EIGHT].copy_from_slice(&zeros);
-                    }
-                }
+    pub(super) fn clear(&mut self) {
+        let zeros = [T::default(); BLOCK];
+        let motion = self.motion.iter_mut().filter(|_| self.has_motion);
+        let mut sums: Vec<&mut [[T; BLOCK]]> =
+            motion.chain([&mut self.epsilon]).map(|sum| sum.as_chunks_mut::<BLOCK>().0).collect();
+        for (block, covered) in self.covered.iter_mut().enumerate() {
+            if std::mem::take(covered) {
+                sums.iter_mut().for_each(|sum| sum[block] = zeros);
             }
         }
+        self.rows.clear();
+        self.fractions.clear();
         for Meeting { cell, .. } in self.meetings.drain(..) {
             self.meeting_of[cell] = 0;
         }

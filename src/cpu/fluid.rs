@@ -183,6 +183,7 @@ impl<T: Real> Fluid<T> {
             } else if kept.is_none() {
                 let mut fields = Fields::new(*cells);
                 fields.add((coverage, solids), run, first);
+                fields.find_filled(values[0].len());
                 *kept = Some(fields);
             }
             let fields = kept.as_ref().unwrap_or(&spare.fields);
@@ -190,18 +191,13 @@ impl<T: Real> Fluid<T> {
             arch.dispatch(Pass { rules, run: values, solids: Some((fields, seen)) });
             fields.correct_meetings(rules, values);
             let received = if with_loads {
-                arch.dispatch(Receiving {
-                    of: (coverage, solids),
-                    run,
-                    first,
-                    seen: &spare.seen,
-                    gain: rules.gain(),
-                })
+                let (seen, gain) = (&spare.seen, rules.gain());
+                arch.dispatch(Receiving { fields, solids, seen, gain })
             } else {
                 Vec::new()
             };
             if moves {
-                spare.fields.clear(coverage, run, first);
+                spare.fields.clear();
             }
             given_back(scratch, spare);
             received
@@ -274,13 +270,12 @@ impl<T: Real> Fluid<T> {
             let solids = Some((&spare.fields, Some(&mut spare.seen)));
             self.arch.dispatch(Pass { rules: &self.rules, run: &mut values, solids });
             let received = self.arch.dispatch(Receiving {
-                of: (coverage, self.solids()),
-                run,
-                first,
+                fields: &spare.fields,
+                solids: self.solids(),
                 seen: &spare.seen,
                 gain: self.rules.gain(),
             });
-            spare.fields.clear(coverage, run, first);
+            spare.fields.clear();
             given_back(&self.scratch, spare);
             received
         };
@@ -399,9 +394,7 @@ impl<T: Real> Fluid<T> {
             let run = cell / self.run;
             let first = run * self.run;
             if present != Some(run) {
-                if let Some(present) = present {
-                    fields.clear(coverage, present, present * self.run);
-                }
+                fields.clear();
                 fields.add((coverage, self.solids()), run, first);
                 present = Some(run);
             }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `fluid.rs` | [`Fluid`]: the order of a step, and what may be asked |
 //! | `grid.rs` | the populations in memory, updated in place |
-//! | `collision.rs` | the collision of a vector of cells |
+//! | `collision/` | the collision of a vector of cells |
 //! | `pass.rs` | one pass over a run of cells |
 //! | `faces.rs` | the populations that enter through the faces |
 //! | `coverage.rs`, `fields.rs` | what solids cover, run by run |

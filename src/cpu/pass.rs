@@ -62,7 +62,13 @@ impl<T: Real> WithSimd for Pass<'_, '_, T> {
                         LanesOf::<T, S>::split(&z[..cells]),
                     ]),
                 };
+                // Full bounce-back off a solid at rest leaves each population in the place of the opposite one, where
+                // it is already.
+                let leaves_filled = self.rules.leaves_filled() && seen.is_none();
                 for i in 0..vectors {
+                    if leaves_filled && fields.is_filled(i * lanes) {
+                        continue;
+                    }
                     let f: [LanesOf<T, S>; Q] =
                         std::array::from_fn(|a| Lanes::load(token, bodies[a][i]));
                     let post = if fields.is_covered(i * lanes, lanes) {
