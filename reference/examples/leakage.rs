@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for tau in [0.51, 0.55, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0] {
         for preset in Preset::ALL {
             let (name, collision) = (preset.word(), preset.collision(tau)?);
-            // With full bounce-back nothing leaks: tests/oracle/full_bounce_back.rs.
+            // With full bounce-back nothing leaks: tests/oracle/tight_solids.rs.
             for (operator, word) in [
                 (SolidOperator::NonEquilibriumBounceBack, "bounce_back"),
                 (SolidOperator::Superposition, "superposition"),

@@ -6,6 +6,7 @@ use crate::collision::CollisionOperator;
 use crate::coverage::{Coverage, Share};
 use crate::directions::Q;
 use crate::forcing::forced_velocity;
+use crate::graded_viscosity;
 use crate::lattice::{Populations, Vec3, density, momentum};
 use crate::partial_saturation::{CellState, force, share_weight};
 use crate::setup::{Setup, SolidPhase};
@@ -78,9 +79,11 @@ impl<'a> CellCollision<'a> {
         shares: &[Share],
         impulses: &mut Vec<Impulse>,
     ) -> Populations {
-        let rho = density(f);
-        let u = momentum(f) / rho;
-        let solid = phase.operator.prepare(&CellState { f, rho, u }, self.operator);
+        let (rho, j) = (density(f), momentum(f));
+        let cell = CellState { f, rho, u: j / rho };
+        let Some(solid) = phase.operator.prepare(&cell, self.operator) else {
+            return self.graded(f, (rho, j), phase, shares, impulses);
+        };
         let mut solid_change = [0.0; Q];
         let epsilons = shares.iter().map(|share| share.epsilon);
         let weight = share_weight(phase.weighting, self.tau, epsilons, |s, weight| {
@@ -98,6 +101,32 @@ impl<'a> CellCollision<'a> {
             post[a] = f[a] + (1.0 - weight) * fluid_change[a] + solid_change[a];
         }
         post
+    }
+
+    /// The same as fluid of graded viscosity.
+    fn graded(
+        &self,
+        f: &Populations,
+        (rho, j): (f64, Vec3),
+        phase: &SolidPhase,
+        shares: &[Share],
+        impulses: &mut Vec<Impulse>,
+    ) -> Populations {
+        let mut drag = Vec3::zeros();
+        let epsilons = shares.iter().map(|share| share.epsilon);
+        let epsilon: f64 = epsilons.clone().sum();
+        let weight = share_weight(phase.weighting, self.tau, epsilons, |s, weight| {
+            let Share { solid: number, arm, .. } = shares[s];
+            // 2 B_s (ρ u_s - j)
+            let u_s = phase.solids[number].velocity_at(&arm);
+            let of_solid = 2.0 * weight * (rho * u_s - j);
+            drag += of_solid;
+            impulses.push(Impulse { solid: number, force: -of_solid, arm });
+        });
+        // F = (1 - B) G + Σ_s 2 B_s (ρ u_s - j)
+        let body_force = self.body_force.unwrap_or_else(Vec3::zeros);
+        let force = (1.0 - weight) * body_force + drag;
+        graded_viscosity::collide(f, (rho, j), &force, epsilon.min(1.0), self.tau)
     }
 }
 

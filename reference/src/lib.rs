@@ -36,6 +36,7 @@ pub mod domain;
 pub mod drive;
 pub mod equilibrium;
 pub mod forcing;
+pub mod graded_viscosity;
 pub mod grains;
 pub mod guard;
 pub mod lattice;

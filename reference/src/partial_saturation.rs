@@ -3,7 +3,7 @@
 //! The literature calls the method the partially saturated method (PSM) or partially saturated cells method, and
 //! counts it among the immersed moving boundary (IMB) methods. Its solid operators are numbered there: SC1 is
 //! [`SolidOperator::NonEquilibriumBounceBack`], SC2 [`SolidOperator::Superposition`], SC3
-//! [`SolidOperator::FullBounceBack`].
+//! [`SolidOperator::FullBounceBack`]. [`SolidOperator::GradedViscosity`] is ours.
 //!
 //! Source: Noble & Torczynski, Int. J. Mod. Phys. C 9, 1189 (1998), the paper's reference 5, as the
 //! paper uses it in Eqs. 4 to 6; see `ERRATA.md` for what is misprinted there. Inside this term the
@@ -12,6 +12,7 @@
 use crate::collision::CollisionOperator;
 use crate::directions::{OPPOSITE, Q};
 use crate::equilibrium::equilibrium;
+use crate::graded_viscosity;
 use crate::lattice::{Populations, Vec3, c};
 
 /// The weight `B` of a cell as a function of its solid fraction.
@@ -22,17 +23,9 @@ pub enum Weighting {
     /// Noble and Torczynski's `B(epsilon, tau)`.
     #[default]
     NobleTorczynski,
-    /// `B/(1 - B)` in proportion to the viscosity: for [`SolidOperator::FullBounceBack`].
-    Viscous,
+    /// The drag of [`SolidOperator::GradedViscosity`], and of nothing else.
+    Graded,
 }
-
-/// `c` in `B/(1 - B) = c (tau - 1/2) epsilon/(1 - epsilon)` of [`Weighting::Viscous`].
-///
-/// In steady creeping flow the shear that crosses a cell is proportional to the viscosity, `(tau - 1/2)/3`. What a solid
-/// takes from the momentum of a cell, over what it leaves, must be so too, or the place of the wall depends on tau. For a
-/// plane wall under full bounce-back the place is right to first order with `c = 1/(1 + tau + 1/2)` or so; spheres of 8 to
-/// 16 cells per diameter, whose error is one of second order besides, are least in error with 0.6 (golden/tradeoff/operators.csv).
-pub const VISCOUS_FACTOR: f64 = 0.6;
 
 impl Weighting {
     /// The weight `B` in 0..=1 of a cell of solid fraction `epsilon` at relaxation time `tau`.
@@ -41,9 +34,9 @@ impl Weighting {
             Weighting::SolidFraction => epsilon,
             // B = ε (τ - 1/2) / [(1 - ε) + (τ - 1/2)]
             Weighting::NobleTorczynski => epsilon * (tau - 0.5) / ((1.0 - epsilon) + (tau - 0.5)),
-            // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)]
-            Weighting::Viscous => {
-                let solid = VISCOUS_FACTOR * epsilon * (tau - 0.5);
+            // B = k ε / [(1 - ε) + k ε]
+            Weighting::Graded => {
+                let solid = graded_viscosity::drag_factor(tau) * epsilon;
                 solid / ((1.0 - epsilon) + solid)
             }
         }
@@ -81,8 +74,12 @@ pub enum SolidOperator {
     /// Equilibrium of the solid plus the fluid's relaxed non-equilibrium part (SC2).
     Superposition,
     /// Bounce-back of the whole populations about the solid's velocity (SC3). Solids are tight with it: no fluid passes
-    /// through cells that they fill. They take twice the momentum of the others, so that free grains are unstable.
+    /// through cells that they fill. They take twice the momentum of the first two, so that
+    /// free grains are unstable.
     FullBounceBack,
+    /// Cut cells as fluid of graded viscosity ([`crate::graded_viscosity`]); full cells as under full bounce-back. The most
+    /// accurate of the four for beds of fixed grains.
+    GradedViscosity,
 }
 
 /// The state of a cell that the solid operators need.
@@ -98,15 +95,16 @@ pub struct CellState<'a> {
 impl SolidOperator {
     /// The change `Lambda` of the populations in a cell full of solid that moves with `u_p`, as a
     /// function of `u_p`: what does not depend on the solid is worked out once for all solids in
-    /// the cell.
-    pub fn prepare(self, cell: &CellState<'_>, fluid: &CollisionOperator) -> PreparedSolid {
+    /// the cell. `None` for an operator that is no sum of a fluid and a solid part.
+    pub fn prepare(self, cell: &CellState<'_>, fluid: &CollisionOperator) -> Option<PreparedSolid> {
         let fixed = match self {
             SolidOperator::NonEquilibriumBounceBack => bounce_back(cell),
             SolidOperator::Superposition => superposition(cell, fluid),
             SolidOperator::FullBounceBack => reflection(cell),
+            SolidOperator::GradedViscosity => return None,
         };
         let turns = self == SolidOperator::FullBounceBack;
-        PreparedSolid { fixed, rho: cell.rho, turns }
+        Some(PreparedSolid { fixed, rho: cell.rho, turns })
     }
 }
 

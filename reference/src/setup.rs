@@ -60,6 +60,11 @@ pub enum SetupError {
     /// Sub-sampling with no points.
     #[error("coverage sampling with n = 0 points: take n from 1 up, or the exact rule")]
     NoSamples,
+    /// An operator and a weight that do not go together.
+    #[error(
+        "the solid operator of graded viscosity has a weight of its own, which no other operator has: take both or neither"
+    )]
+    GradedWeight,
     /// A sphere too small for the linear rule.
     #[error(
         "the linear rule of coverage is meant for spheres of a radius of at least {SMALLEST_LINEAR_RADIUS} cell; solid \
@@ -106,6 +111,10 @@ impl Setup {
         if let Some(phase) = &self.solid_phase {
             for (number, solid) in phase.solids.iter().enumerate() {
                 solid.check(number, self.domain.cell_count())?;
+            }
+            let has_graded_weight = phase.weighting == Weighting::Graded;
+            if has_graded_weight != (phase.operator == SolidOperator::GradedViscosity) {
+                return Err(SetupError::GradedWeight);
             }
             check_coverage(phase)?;
         }

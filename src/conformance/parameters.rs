@@ -120,6 +120,7 @@ fn operator_name(operator: SolidOperator) -> &'static str {
         SolidOperator::NonEquilibriumBounceBack => "non_equilibrium_bounce_back",
         SolidOperator::Superposition => "superposition",
         SolidOperator::FullBounceBack => "full_bounce_back",
+        SolidOperator::GradedViscosity => "graded_viscosity",
     }
 }
 
@@ -127,7 +128,7 @@ fn weighting_name(weighting: Weighting) -> &'static str {
     match weighting {
         Weighting::SolidFraction => "solid_fraction",
         Weighting::NobleTorczynski => "noble_torczynski",
-        Weighting::Viscous => "viscous",
+        Weighting::Graded => "graded",
     }
 }
 

@@ -5,10 +5,12 @@
 
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::Face;
+use psmrt_reference::graded_viscosity::CUT_MAGIC;
 use psmrt_reference::partial_saturation::SolidOperator;
 use psmrt_reference::setup::Setup;
 
 use super::bindings::Binding;
+use super::coverage::graded_drag;
 use super::driven::has_densities;
 use super::layout::{Layout, Store};
 use super::numbers::{count, literal};
@@ -170,7 +172,7 @@ impl Recipe<'_> {
     /// What the solid operator takes of the momentum, over `B (j - ρ u_s)`.
     fn gain(&self) -> f64 {
         match self.setup.solid_phase.as_ref().map(|phase| phase.operator) {
-            Some(SolidOperator::FullBounceBack) => 2.0,
+            Some(SolidOperator::FullBounceBack | SolidOperator::GradedViscosity) => 2.0,
             Some(SolidOperator::NonEquilibriumBounceBack | SolidOperator::Superposition) | None => {
                 1.0
             }
@@ -226,8 +228,12 @@ impl Recipe<'_> {
             match operator {
                 Some(SolidOperator::Superposition) => flags.push("SUPERPOSITION"),
                 Some(SolidOperator::FullBounceBack) => flags.push("FULL"),
+                Some(SolidOperator::GradedViscosity) => flags.push("GRADED"),
                 Some(SolidOperator::NonEquilibriumBounceBack) | None => {}
             }
+        }
+        if forced || flags.contains(&"GRADED") {
+            flags.push("PUSHED");
         }
         if forced || solids != SolidData::None {
             flags.push("MOMENTUM");
@@ -244,6 +250,7 @@ impl Recipe<'_> {
             Collision::Srt { tau } => [1.0 / tau; 6],
             Collision::Mrt { rates } => [rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m],
         };
+        let tau = self.setup.collision.tau();
         let whole = [
             ("NX", nx),
             ("NY", ny),
@@ -264,6 +271,9 @@ impl Recipe<'_> {
             ("S_M", s_m),
             ("TWO_THIRDS", 2.0 / 3.0),
             ("GAIN", self.gain()),
+            ("EXCESS", tau - 0.5),
+            ("GRADED_DRAG", graded_drag(tau)),
+            ("ODD_IN_CUT_CELLS", CUT_MAGIC / (tau - 0.5)),
             ("MAX_SPEED2", self.setup.guard.max_speed.powi(2)),
         ];
         let mut text = String::new();

@@ -5,7 +5,7 @@
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::partial_saturation::{VISCOUS_FACTOR, Weighting};
+use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
@@ -164,6 +164,11 @@ impl Coverage {
     }
 }
 
+/// `k` in `B/(1 - B) = k ε/(1 - ε)` of graded viscosity.
+pub(super) fn graded_drag(tau: f64) -> f64 {
+    0.25 * (tau - 0.5).powi(2) / (tau - 0.4)
+}
+
 /// The weight `B` of a cell in which the solid fractions add up to `sum`.
 fn weight(weighting: Weighting, sum: f64, tau: f64) -> f64 {
     let epsilon = sum.min(1.0);
@@ -174,9 +179,9 @@ fn weight(weighting: Weighting, sum: f64, tau: f64) -> f64 {
             let excess = tau - 0.5;
             epsilon * excess / (1.0 - epsilon + excess)
         }
-        // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)]
-        Weighting::Viscous => {
-            let solid = VISCOUS_FACTOR * epsilon * (tau - 0.5);
+        // B = k ε / [(1 - ε) + k ε]
+        Weighting::Graded => {
+            let solid = graded_drag(tau) * epsilon;
             solid / (1.0 - epsilon + solid)
         }
     }

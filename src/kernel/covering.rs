@@ -1,11 +1,11 @@
 //! The shaders that find what movable solids cover (`movable.rs`), put together for one scene.
 
 use psmrt_reference::coverage::CoverageRule;
-use psmrt_reference::partial_saturation::{VISCOUS_FACTOR, Weighting};
+use psmrt_reference::partial_saturation::Weighting;
 
 use super::bindings::Binding;
 use super::compose::{Recipe, selected};
-use super::numbers::{count, literal};
+use super::numbers::count;
 use super::table;
 
 /// The stages of finding what solids cover.
@@ -50,7 +50,7 @@ impl Recipe<'_> {
         };
         match phase.map(|phase| phase.weighting) {
             Some(Weighting::NobleTorczynski) => flags.push("NOBLE"),
-            Some(Weighting::Viscous) => flags.push("VISCOUS"),
+            Some(Weighting::Graded) => flags.push("GRADED"),
             Some(Weighting::SolidFraction) | None => flags.push("FRACTION"),
         }
         if !work.in_every_cell {
@@ -61,10 +61,6 @@ impl Recipe<'_> {
             [("SOLIDS", self.solid_count()), ("PARTS", work.parts), ("SAMPLES", count(samples))];
         for (name, value) in whole {
             text += &format!("const {name} = {value}u;\n");
-        }
-        let excess = self.setup.collision.tau() - 0.5;
-        for (name, value) in [("EXCESS", excess), ("VISCOUS_EXCESS", VISCOUS_FACTOR * excess)] {
-            text += &format!("const {name} = {};\n", literal(value));
         }
         for (axis, name) in ["X", "Y", "Z"].iter().enumerate() {
             text += &format!("const PERIODIC_{name} = {};\n", self.setup.domain.is_periodic(axis));

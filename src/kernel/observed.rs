@@ -2,11 +2,12 @@
 
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::partial_saturation::{VISCOUS_FACTOR, Weighting};
+use psmrt_reference::partial_saturation::Weighting;
 use psmrt_reference::solids::Load;
 
 use super::buffers::Growing;
 use super::compose::Work;
+use super::coverage::graded_drag;
 use super::error::KernelError;
 use super::fluid::Kernel;
 use super::layout::Layout;
@@ -84,10 +85,10 @@ impl Kernel {
                 let excess = self.setup.collision.tau() - 0.5;
                 (b * (1.0 + excess) / (b + excess)).min(1.0)
             }
-            // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)], so that ε = B / [B + c (τ - 1/2) (1 - B)]
-            Some(Weighting::Viscous) => {
-                let excess = VISCOUS_FACTOR * (self.setup.collision.tau() - 0.5);
-                if b == 0.0 { 0.0 } else { (b / (b + excess * (1.0 - b))).min(1.0) }
+            // B = k ε / [(1 - ε) + k ε], so that ε = B / [B + k (1 - B)]
+            Some(Weighting::Graded) => {
+                let k = graded_drag(self.setup.collision.tau());
+                if b == 0.0 { 0.0 } else { (b / (b + k * (1.0 - b))).min(1.0) }
             }
             Some(Weighting::SolidFraction) | None => b,
         }

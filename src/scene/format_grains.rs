@@ -107,13 +107,14 @@ pub enum Motion {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SolidSection {
-    /// Weight `B` of the solid in a cell: `noble_torczynski` (the default), `solid_fraction`, or `viscous`, in proportion
-    /// to the viscosity, which belongs to `full_bounce_back`.
-    #[serde(default)]
-    pub weighting: WeightingName,
+    /// Weight `B` of the solid in a cell: `noble_torczynski` (the default) or `solid_fraction`. Not with
+    /// `graded_viscosity`, which has its own.
+    pub weighting: Option<WeightingName>,
     /// Collision in the solid: `bounce_back` of the non-equilibrium part (SC1 of the literature, the default),
-    /// `superposition` (SC2) or `full_bounce_back` (SC3): no fluid passes through the cells that a solid fills. With
-    /// `weighting = "viscous"` the error of a bed of fixed grains hardly depends on tau; not for free grains.
+    /// `superposition` (SC2), `full_bounce_back` (SC3) or `graded_viscosity`, of psmrt's own making. With the last two no
+    /// fluid passes through the cells that a solid fills. `graded_viscosity` is the most accurate for beds of fixed
+    /// grains: within 3 % of the drag at 14 to 16 cells per diameter and tau from 0.55 to 1 where the default is up to 25 %
+    /// off. Neither is for free grains.
     #[serde(default)]
     pub operator: OperatorName,
     /// How the solid fraction of a cell is found: `exact` (the default), `sampled`, or `linear` in the distance between
@@ -133,8 +134,6 @@ pub enum WeightingName {
     NobleTorczynski,
     /// The solid fraction itself.
     SolidFraction,
-    /// `B/(1 - B) = 0.6 (tau - 1/2) epsilon/(1 - epsilon)`.
-    Viscous,
 }
 
 /// Collision in the solid.
@@ -148,6 +147,8 @@ pub enum OperatorName {
     Superposition,
     /// Bounce-back of the whole populations (SC3).
     FullBounceBack,
+    /// Cut cells as fluid that is `1/(1 - epsilon)` times as viscous.
+    GradedViscosity,
 }
 
 /// How the solid fraction of a cell is found.

@@ -8,6 +8,7 @@ pub mod collisions;
 pub mod cuts;
 pub mod random;
 pub mod settling;
+pub mod solid_rules;
 pub mod sphere_quadrature;
 pub mod suspension;
 

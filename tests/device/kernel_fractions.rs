@@ -8,8 +8,9 @@
 use crate::common::collisions::srt;
 use crate::common::cuts::{cut, images};
 use crate::common::random::Random;
+use crate::common::solid_rules::solid_rules;
 use crate::common::sphere_quadrature::fraction_by_quadrature;
-use crate::parity::{WEIGHTINGS, sphere};
+use crate::parity::sphere;
 use crate::trials::{self, Claim};
 use psmrt::kernel::{Kernel, solid_fractions_on_device};
 use psmrt_reference::domain::{Domain, Faces};
@@ -100,16 +101,16 @@ fn device_fractions_hardly_know_the_axes_of_the_box() {
 fn fractions_that_are_seen_are_those_of_the_oracle() {
     let domain = Domain::new([12, 10, 9], Faces::PERIODIC).unwrap();
     let mut random = Random(24);
-    for (weighting, is_moving) in
-        [(0, false), (0, true), (1, false), (1, true)].map(|(w, moves)| (WEIGHTINGS[w], moves))
-    {
+    for (rule, is_moving) in [(0, false), (0, true), (1, false), (1, true), (6, true)] {
+        let (operator, weighting) = solid_rules()[rule];
         let speed = if is_moving { 0.01 } else { 0.0 };
         let places = [[1.0, 4.3, 5.1], [3.2, 4.0, 5.5], [8.1, 9.2, 0.4], [9.0, 4.9, 4.6]];
         let radii = [2.6, 1.9, 2.2, 0.7];
         let solids = places.iter().zip(radii);
         let solids = solids
             .map(|(&place, radius)| sphere(place, radius, random.vector(speed), Vec3::zeros()));
-        let phase = SolidPhase { solids: solids.collect(), weighting, ..SolidPhase::default() };
+        let phase =
+            SolidPhase { solids: solids.collect(), weighting, operator, ..SolidPhase::default() };
         for tau in [0.52, 0.8, 1.5] {
             let setup = Setup::fluid(domain.clone(), srt(tau)).with_solids(phase.clone());
             let kernel = Kernel::new(&trials::gpu().unwrap(), setup.clone(), false).unwrap();

@@ -4,12 +4,12 @@
 use crate::common;
 
 use common::random::Random;
+use common::solid_rules::solid_rules;
 use proptest::prelude::*;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::guard::GuardSettings;
 use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
-use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
@@ -39,16 +39,7 @@ prop_compose! {
     fn any_solids()(
         seed in any::<u64>(),
         count in 0_usize..5,
-        weighting in prop_oneof![
-            Just(Weighting::SolidFraction),
-            Just(Weighting::NobleTorczynski),
-            Just(Weighting::Viscous),
-        ],
-        operator in prop_oneof![
-            Just(SolidOperator::NonEquilibriumBounceBack),
-            Just(SolidOperator::Superposition),
-            Just(SolidOperator::FullBounceBack),
-        ],
+        (operator, weighting) in prop::sample::select(solid_rules()),
     ) -> SolidPhase {
         let mut random = Random(seed);
         let solids = (0..count).map(|_| {

@@ -75,7 +75,7 @@ fn lambda(f: &Populations, u_p: &Vec3) -> Populations {
     let rho = density(f);
     let cell = CellState { f, rho, u: momentum(f) / rho };
     let fluid = CollisionOperator::Srt { tau: TAU };
-    SolidOperator::NonEquilibriumBounceBack.prepare(&cell, &fluid).lambda(u_p)
+    SolidOperator::NonEquilibriumBounceBack.prepare(&cell, &fluid).unwrap().lambda(u_p)
 }
 
 #[test]

@@ -37,7 +37,8 @@ fn loads_with_the_displaced_force_close_the_balance_of_each_step_to_round_off() 
         (srt(0.7), Weighting::NobleTorczynski, SolidOperator::NonEquilibriumBounceBack),
         (dhumieres(0.7), Weighting::NobleTorczynski, SolidOperator::Superposition),
         (dhumieres(1.2), Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack),
-        (dhumieres(0.9), Weighting::Viscous, SolidOperator::FullBounceBack),
+        (dhumieres(0.9), Weighting::NobleTorczynski, SolidOperator::FullBounceBack),
+        (dhumieres(0.8), Weighting::Graded, SolidOperator::GradedViscosity),
     ] {
         // One at rest, one that moves through a periodic face, and one that shares cells with it.
         let place = Vec3::new(3.1, 4.2, 5.3);

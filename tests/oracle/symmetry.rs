@@ -5,11 +5,12 @@ use crate::common;
 
 use common::Budget;
 use common::random::{Random, largest_difference};
+use common::solid_rules::operators;
 use psmrt_reference::collision::{Collision, CollisionOperator, MrtOperator};
 use psmrt_reference::directions::{C, Q, number_of};
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
-use psmrt_reference::partial_saturation::SolidOperator;
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
@@ -170,7 +171,11 @@ fn printed_thirteenth_entry_breaks_the_symmetry_between_x_and_the_other_axes() {
 }
 
 /// A box with solids that move, spin, overlap and stick out, in lattice units.
-fn busy_box(faces: Faces, collision: Collision, operator: SolidOperator) -> Setup {
+fn busy_box(
+    faces: Faces,
+    collision: Collision,
+    (operator, weighting): (SolidOperator, Weighting),
+) -> Setup {
     let domain = Domain::new([6, 5, 4], faces).unwrap();
     let first = Solid {
         velocity: Vec3::new(0.02, -0.01, 0.03),
@@ -181,7 +186,8 @@ fn busy_box(faces: Faces, collision: Collision, operator: SolidOperator) -> Setu
         angular_velocity: Vec3::new(-0.02, 0.0, 0.01),
         ..Solid::fixed_sphere(Vec3::new(3.9, 3.6, 2.2), 1.1)
     };
-    let phase = SolidPhase { solids: vec![first, second], operator, ..SolidPhase::default() };
+    let solids = vec![first, second];
+    let phase = SolidPhase { solids, operator, weighting, ..SolidPhase::default() };
     Setup::fluid(domain, collision).with_solids(phase).with_body_force(Vec3::new(1e-3, -2e-3, 5e-4))
 }
 
@@ -208,14 +214,10 @@ fn steps_commute_with_all_48_symmetries_whatever_the_faces_and_solids() {
     let mut budget = Budget::oracle(3_000_000);
     let mut random = Random(2);
     const STEPS: u64 = 5;
-    let operators = [
-        SolidOperator::NonEquilibriumBounceBack,
-        SolidOperator::Superposition,
-        SolidOperator::FullBounceBack,
-    ];
+    let operators = operators();
     for (case, faces) in mixed_faces().into_iter().enumerate() {
         for collision in collisions() {
-            let setup = busy_box(faces, collision, operators[case % 3]);
+            let setup = busy_box(faces, collision, operators[case % operators.len()]);
             let cells = setup.domain.cells();
             let start: Vec<Populations> =
                 (0..setup.domain.cell_count()).map(|_| random.populations()).collect();

@@ -10,7 +10,7 @@ use psmrt_reference::collision::Collision;
 use psmrt_reference::directions::Q;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::{Populations, Vec3, W};
-use psmrt_reference::partial_saturation::{SolidOperator, VISCOUS_FACTOR, Weighting};
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::{Shape, Solid};
@@ -125,14 +125,6 @@ pub fn collisions() -> Vec<(&'static str, Collision)> {
 }
 
 pub const G: Vec3 = Vec3::new(1e-3, -2e-3, 5e-4);
-
-pub const WEIGHTINGS: [Weighting; 3] =
-    [Weighting::SolidFraction, Weighting::NobleTorczynski, Weighting::Viscous];
-pub const OPERATORS: [SolidOperator; 3] = [
-    SolidOperator::NonEquilibriumBounceBack,
-    SolidOperator::Superposition,
-    SolidOperator::FullBounceBack,
-];
 
 /// Solids with given fractions of all cells, of which each has up to three; some are full, some bare.
 pub fn given_fractions(random: &mut Random, moving: bool) -> Vec<Solid> {
@@ -288,10 +280,11 @@ fn weight_error(Rounding { epsilon, kept }: Rounding, setup: &Setup) -> f64 {
             let excess = setup.collision.tau() - 0.5;
             of_fraction * (1.0 + excess) / excess
         }
-        // dB/dε = k/[(1 - ε) + k ε]² with k = c (τ - 1/2) is largest in a full cell, or in an empty one if k > 1.
-        Weighting::Viscous => {
-            let k = VISCOUS_FACTOR * (setup.collision.tau() - 0.5);
-            of_fraction * k.max(1.0 / k)
+        // dB/dε = k/[(1 - ε) + k ε]² is largest in a full cell, as k < 1 (tau < 5); the rates of the moments go with
+        // ε itself.
+        Weighting::Graded => {
+            let excess = setup.collision.tau() - 0.5;
+            of_fraction * (1.0 + (4.0 * excess + 0.4) / (excess * excess))
         }
     }
 }

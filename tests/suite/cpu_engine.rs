@@ -151,8 +151,8 @@ fn cells_that_a_tight_solid_fills_are_left_out_and_the_flow_stays_the_same() {
     let (centre, radius) = (Vec3::new(24.3, 12.2, 11.8), 11.0);
     let solids = SolidPhase {
         solids: vec![Solid::fixed_sphere(centre, radius)],
-        operator: SolidOperator::FullBounceBack,
-        weighting: Weighting::Viscous,
+        operator: SolidOperator::GradedViscosity,
+        weighting: Weighting::Graded,
         ..SolidPhase::default()
     };
     let domain = Domain::new([64, 24, 24], Faces::PERIODIC).unwrap();
@@ -161,7 +161,7 @@ fn cells_that_a_tight_solid_fills_are_left_out_and_the_flow_stays_the_same() {
         .with_body_force(Vec3::new(1e-5, 2e-5, 0.0));
     let run = |with_loads: bool| {
         let mut cpu = CpuEngine::<f64>::start(setup.clone(), &from(&state));
-                for _ in 0..20 {
+        for _ in 0..20 {
             cpu.advance(1, with_loads).unwrap();
         }
         cpu.populations(Block::whole(&domain)).unwrap()

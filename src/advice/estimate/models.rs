@@ -24,12 +24,13 @@ pub fn models(scene: &Scene) -> Vec<String> {
             match phase.weighting {
                 Weighting::NobleTorczynski => "Noble-Torczynski weighting",
                 Weighting::SolidFraction => "weighting by solid fraction",
-                Weighting::Viscous => "viscous weighting",
+                Weighting::Graded => "its own weighting",
             },
             match phase.operator {
                 SolidOperator::NonEquilibriumBounceBack => "non-equilibrium bounce-back",
                 SolidOperator::Superposition => "superposition",
                 SolidOperator::FullBounceBack => "full bounce-back",
+                SolidOperator::GradedViscosity => "graded viscosity",
             },
             match phase.coverage {
                 CoverageRule::Exact => "exact".to_owned(),

@@ -123,8 +123,9 @@ impl Facts {
             (Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack) => {
                 SolidMethod::SolidFraction
             }
-            (Weighting::Viscous, _) | (_, SolidOperator::FullBounceBack) => {
-                let why = "it has the operator full_bounce_back or the viscous weight, for which no error model has been \
+            (Weighting::Graded, _)
+            | (_, SolidOperator::FullBounceBack | SolidOperator::GradedViscosity) => {
+                let why = "it has the operator full_bounce_back or graded_viscosity, for which no error model has been \
                            fitted";
                 return Ok(Err(why.to_owned()));
             }

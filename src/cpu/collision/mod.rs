@@ -10,14 +10,16 @@
 //! | `pairs.rs` | sums and differences of opposite populations |
 //! | `relaxation.rs` | moments, their relaxation, body force |
 //! | `saturation.rs` | cells that solids fill in part |
+//! | `graded.rs` | the same as fluid of graded viscosity |
 
+mod graded;
 mod pairs;
 mod relaxation;
 mod rules;
 mod saturation;
 
 use psmrt_reference::directions::Q;
-use psmrt_reference::partial_saturation::{SolidOperator, VISCOUS_FACTOR, Weighting};
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::rates::Rates;
 
 use self::pairs::Sums;
@@ -53,13 +55,17 @@ pub(super) struct Collider<V> {
     edge: V,
     rest_drop: V,
     tiny: V,
+    huge: V,
     /// `-s/|row|²` of e, eps, 3pxx, 3pixx, pww, piww, pxy, q, m
     relax: [V; 9],
     /// `(1 - s/2)/|row|²` of the same
     drive: [V; 9],
+    /// `1/|row|²` of the same
+    unit: [V; 9],
     force: Option<[V; 3]>,
     excess: V,
-    viscous_excess: V,
+    graded_drag: V,
+    odd_in_cut_cells: V,
     operator: SolidOperator,
     weighting: Weighting,
 }
@@ -96,11 +102,14 @@ impl<V: Lanes> Collider<V> {
             edge: all(EDGE),
             rest_drop: all(-1.5 * REST),
             tiny: all(1e-30),
+            huge: all(1e30),
             relax: per_row(|s| -s),
             drive: per_row(|s| 1.0 - 0.5 * s),
+            unit: per_row(|_| 1.0),
             force: rules.body_force.map(|g| [all(g.x), all(g.y), all(g.z)]),
             excess: all(rules.rates.tau() - 0.5),
-            viscous_excess: all(VISCOUS_FACTOR * (rules.rates.tau() - 0.5)),
+            graded_drag: all(rules.graded_drag()),
+            odd_in_cut_cells: all(rules.odd_in_cut_cells()),
             operator: rules.operator,
             weighting: rules.weighting,
         }

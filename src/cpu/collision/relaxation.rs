@@ -84,24 +84,26 @@ impl<V: Lanes> Collider<V> {
     #[inline(always)]
     pub(super) fn moments(&self, cell: &Cell<V>) -> Moments<V> {
         match self.force {
-            None => self.relaxed(cell, cell.sums.j),
+            None => self.relaxed(cell, cell.sums.j, &self.relax),
             Some(g) => {
-                // ρu = j + G/2
-                let [jx, jy, jz] = cell.sums.j;
-                let [gx, gy, gz] = g;
-                let forced = [
-                    self.half.mul_add(gx, jx),
-                    self.half.mul_add(gy, jy),
-                    self.half.mul_add(gz, jz),
-                ];
-                self.driven(self.relaxed(cell, forced), g, forced, cell.inverse)
+                let driven = self.half_way(cell, g);
+                let moments = self.relaxed(cell, driven, &self.relax);
+                self.driven(&moments, g, driven, cell.inverse, &self.drive)
             }
         }
     }
 
-    /// `-s (m - m_eq)/|row|²` where the equilibrium has the momentum `j`.
+    /// The momentum half-way through a collision in which `g` is added to it.
     #[inline(always)]
-    pub(super) fn relaxed(&self, cell: &Cell<V>, j: [V; 3]) -> Moments<V> {
+    pub(super) fn half_way(&self, cell: &Cell<V>, [gx, gy, gz]: [V; 3]) -> [V; 3] {
+        // ρu = j + G/2
+        let [jx, jy, jz] = cell.sums.j;
+        [self.half.mul_add(gx, jx), self.half.mul_add(gy, jy), self.half.mul_add(gz, jz)]
+    }
+
+    /// `-s (m - m_eq)/|row|²` where the equilibrium has the momentum `j`; `relax` has the `-s/|row|²`.
+    #[inline(always)]
+    pub(super) fn relaxed(&self, cell: &Cell<V>, j: [V; 3], relax: &[V; 9]) -> Moments<V> {
         let sums = &cell.sums;
         let Sums { even, odd, .. } = sums;
         let [exy, exz, eyz] = sums.planes;
@@ -134,7 +136,7 @@ impl<V: Lanes> Collider<V> {
         let qx = self.two_thirds.mul_add(jx, kx - self.four * odd.x);
         let qy = self.two_thirds.mul_add(jy, ky - self.four * odd.y);
         let qz = self.two_thirds.mul_add(jz, kz - self.four * odd.z);
-        let [e_, eps_, nxx, pixx_, nww, piww_, nxy, q_, m_] = self.relax;
+        let [e_, eps_, nxx, pixx_, nww, piww_, nxy, q_, m_] = *relax;
         let [mx, my, mz] = sums.third;
         Moments {
             e: e * e_,
@@ -152,16 +154,23 @@ impl<V: Lanes> Collider<V> {
         }
     }
 
-    /// The same with Guo's source: `(1 - s/2) M F`, the derivative of the equilibrium moments along `j -> G`.
+    /// The same with Guo's source: `(1 - s/2) M F`, `drive` having the `(1 - s/2)/|row|²`: the derivative of the equilibrium moments along `j -> G`.
     #[inline(always)]
-    fn driven(&self, moments: Moments<V>, g: [V; 3], j: [V; 3], inverse: V) -> Moments<V> {
+    pub(super) fn driven(
+        &self,
+        moments: &Moments<V>,
+        g: [V; 3],
+        j: [V; 3],
+        inverse: V,
+        drive: &[V; 9],
+    ) -> Moments<V> {
         let [gx, gy, gz] = g;
         let [ux, uy, uz] = scaled(j, inverse);
         let (ugx, ugy, ugz) = (ux * gx, uy * gy, uz * gz);
         let ug = ugx + ugy + ugz;
         let pxx = self.two * (self.three.mul_add(ugx, -ug));
         let pww = self.two * (ugy - ugz);
-        let [e, eps, nxx, pixx, nww, piww, nxy, q, _] = self.drive;
+        let [e, eps, nxx, pixx, nww, piww, nxy, q, _] = *drive;
         let (pxy, pyz, pxz) =
             (ux.mul_add(gy, uy * gx), uy.mul_add(gz, uz * gy), ux.mul_add(gz, uz * gx));
         let flux = self.two_thirds * q;
@@ -178,7 +187,7 @@ impl<V: Lanes> Collider<V> {
             pxz: pxz.mul_add(nxy, moments.pxz),
             j: Some(scaled(g, self.tenth)),
             q: [qx - gx * flux, qy - gy * flux, qz - gz * flux],
-            ..moments
+            ..*moments
         }
     }
 

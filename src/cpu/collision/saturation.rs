@@ -4,6 +4,7 @@ use psmrt_reference::directions::Q;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 
 use super::pairs::{Change, Pair};
+use super::relaxation::Moments;
 use super::{Cell, Collider, scaled};
 use crate::lanes::Lanes;
 
@@ -27,23 +28,31 @@ impl<V: Lanes> Collider<V> {
             Some(sum) => Some(scaled(sum, inverse)),
         };
         let weight = self.weight_of(epsilon);
-        // f* = f + (1 - B) Ω + B Λ
-        let moments = match (self.operator, self.force) {
-            // What bounces back has not relaxed.
-            (SolidOperator::NonEquilibriumBounceBack | SolidOperator::FullBounceBack, _) => {
-                self.moments(&cell).times(self.one - weight)
-            }
-            // Λ holds an Ω as well: that of the bare velocity, the same if no force acts.
-            (SolidOperator::Superposition, None) => self.moments(&cell),
-            (SolidOperator::Superposition, Some(_)) => {
-                let driven = self.moments(&cell).times(self.one - weight);
-                self.relaxed(&cell, cell.sums.j).times_plus(weight, &driven)
-            }
+        let change = if self.operator == SolidOperator::GradedViscosity {
+            self.graded(&cell, epsilon, weight, solid_velocity)
+        } else {
+            let moments = self.moments_beside_solid(&cell, weight);
+            self.with_solid(&self.back(&moments), &cell, weight, solid_velocity)
         };
-        let change = self.with_solid(&self.back(&moments), &cell, weight, solid_velocity);
         let share = weight * inverse;
         let [jx, jy, jz] = scaled(cell.sums.j, share);
         (change.added_to(f), [cell.rho * share, jx, jy, jz, share])
+    }
+
+    /// The fluid's part: the change of the moments in `f* - f = (1 - B) Ω + B Λ` but for that by `Λ`, of which the Ω in it
+    /// is taken in.
+    #[inline(always)]
+    fn moments_beside_solid(&self, cell: &Cell<V>, weight: V) -> Moments<V> {
+        match (self.operator, self.force) {
+            // Λ holds an Ω as well: that of the bare velocity, the same if no force acts.
+            (SolidOperator::Superposition, None) => self.moments(cell),
+            (SolidOperator::Superposition, Some(_)) => {
+                let driven = self.moments(cell).times(self.one - weight);
+                self.relaxed(cell, cell.sums.j, &self.relax).times_plus(weight, &driven)
+            }
+            // What bounces back has not relaxed.
+            _ => self.moments(cell).times(self.one - weight),
+        }
     }
 
     /// `B(min(1, epsilon))`
@@ -56,9 +65,9 @@ impl<V: Lanes> Collider<V> {
             Weighting::NobleTorczynski => {
                 (epsilon * self.excess).over((self.one - epsilon) + self.excess)
             }
-            // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)]
-            Weighting::Viscous => {
-                let solid = epsilon * self.viscous_excess;
+            // B = k ε / [(1 - ε) + k ε]
+            Weighting::Graded => {
+                let solid = epsilon * self.graded_drag;
                 solid.over((self.one - epsilon) + solid)
             }
         }

@@ -76,12 +76,41 @@ fn collided(
     let pyz = s15 - s16;
     let pxz = s11 - s12;
 
-    // u = (j + G/2)/ρ
     let over_rho = 1.0 / rho;
+//#if GRADED
+    // A cut cell as fluid of graded viscosity (reference/src/graded_viscosity.rs): its force F = (1 - B) G + 2 B (ρ u_p - j)
+    // and its rates, which hide the fluid's. With (1 - ε) = (1 - B)/[(1 - B) + B/k]:
+    // even moments 1/s - 1/2 = (τ - 1/2)/(1 - ε), odd moments 1/s - 1/2 = Λ_c (1 - ε)/(τ - 1/2).
+    let b = solid.weight;
+    let open = 1.0 - b;
+    let whole = open + b / GRADED_DRAG;
+    let even = open / (0.5 * open + EXCESS * whole);
+    let odd = 1.0 / (0.5 + ODD_IN_CUT_CELLS * open / whole);
+    let is_cut = b > 0.0;
+    let S_E = select(S_E, even, is_cut);
+    let S_EPS = select(S_EPS, even, is_cut);
+    let S_NU = select(S_NU, even, is_cut);
+    let S_PI = select(S_PI, even, is_cut);
+    let S_Q = select(S_Q, odd, is_cut);
+    let S_M = select(S_M, odd, is_cut);
+    var push = -2.0 * b * vec3<f32>(j_x, j_y, j_z);
+//#if MOVING
+    push += 2.0 * rho * vec3<f32>(solid.velocity_x, solid.velocity_y, solid.velocity_z);
+//#end
 //#if FORCE
-    let k_x = j_x + 0.5 * drive.force.x;
-    let k_y = j_y + 0.5 * drive.force.y;
-    let k_z = j_z + 0.5 * drive.force.z;
+    push += open * drive.force;
+//#end
+//#else
+//#if FORCE
+    let push = drive.force;
+//#end
+//#end
+
+    // u = (j + G/2)/ρ
+//#if PUSHED
+    let k_x = j_x + 0.5 * push.x;
+    let k_y = j_y + 0.5 * push.y;
+    let k_z = j_z + 0.5 * push.z;
 //#else
     let k_x = j_x;
     let k_y = j_y;
@@ -118,32 +147,34 @@ fn collided(
     var g_xy = S_NU * (t_xy - pxy);
     var g_yz = S_NU * (t_yz - pyz);
     var g_xz = S_NU * (t_xz - pxz);
-//#if FORCE
+//#if PUSHED
     // + (I - Ŝ/2) F,  F the derivative of m_eq along ρu → G
-    let w_x = u_x * drive.force.x;
-    let w_y = u_y * drive.force.y;
-    let w_z = u_z * drive.force.z;
+    let w_x = u_x * push.x;
+    let w_y = u_y * push.y;
+    let w_z = u_z * push.z;
     let power = w_x + w_y + w_z;
     let f_xx = 2.0 * (2.0 * w_x - w_y - w_z);
     let f_ww = 2.0 * (w_y - w_z);
     g_e += (1.0 - 0.5 * S_E) * 38.0 * power;
     g_eps -= (1.0 - 0.5 * S_EPS) * 11.0 * power;
-    gq_x -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * drive.force.x;
-    gq_y -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * drive.force.y;
-    gq_z -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * drive.force.z;
+    gq_x -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * push.x;
+    gq_y -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * push.y;
+    gq_z -= (1.0 - 0.5 * S_Q) * TWO_THIRDS * push.z;
     g_pxx += (1.0 - 0.5 * S_NU) * f_xx;
     g_pixx -= (1.0 - 0.5 * S_PI) * 0.5 * f_xx;
     g_pww += (1.0 - 0.5 * S_NU) * f_ww;
     g_piww -= (1.0 - 0.5 * S_PI) * 0.5 * f_ww;
-    g_xy += (1.0 - 0.5 * S_NU) * (u_x * drive.force.y + u_y * drive.force.x);
-    g_yz += (1.0 - 0.5 * S_NU) * (u_y * drive.force.z + u_z * drive.force.y);
-    g_xz += (1.0 - 0.5 * S_NU) * (u_x * drive.force.z + u_z * drive.force.x);
-    var gj_x = drive.force.x;
-    var gj_y = drive.force.y;
-    var gj_z = drive.force.z;
+    g_xy += (1.0 - 0.5 * S_NU) * (u_x * push.y + u_y * push.x);
+    g_yz += (1.0 - 0.5 * S_NU) * (u_y * push.z + u_z * push.y);
+    g_xz += (1.0 - 0.5 * S_NU) * (u_x * push.z + u_z * push.x);
+    var gj_x = push.x;
+    var gj_y = push.y;
+    var gj_z = push.z;
 //#end
 
 //#if SOLIDS
+//#if GRADED
+//#else
     // B and 1 - B, and the fluid's equilibrium without the body force
     let b = solid.weight;
     let open = 1.0 - b;
@@ -254,6 +285,7 @@ fn collided(
     gj_x += push_x;
     gj_y += push_y;
     gj_z += push_z;
+//#end
 //#end
 
     // h* = h + M⁻¹ g, each row of M over its squared length

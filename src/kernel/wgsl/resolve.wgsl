@@ -26,9 +26,9 @@ fn weight_of(sum: f32) -> f32 {
     if (epsilon == 1.0) {
         return 1.0;
     }
-//#if VISCOUS
-    // B = c ε (τ - 1/2) / [(1 - ε) + c ε (τ - 1/2)]
-    let solid = epsilon * VISCOUS_EXCESS;
+//#if GRADED
+    // B = k ε / [(1 - ε) + k ε]
+    let solid = epsilon * GRADED_DRAG;
     return solid / (1.0 - epsilon + solid);
 //#else
     // B = ε (τ - 1/2) / [(1 - ε) + (τ - 1/2)]

@@ -174,7 +174,9 @@ fn setup_trouble(error: &SetupError) -> Trouble {
         SetupError::Rates(_) => "collision",
         SetupError::Solid(_) => "grains",
         SetupError::BodyForce { .. } => "body_force",
-        SetupError::NoSamples | SetupError::TooSmallForLinear { .. } => "solid",
+        SetupError::NoSamples | SetupError::GradedWeight | SetupError::TooSmallForLinear { .. } => {
+            "solid"
+        }
     };
     Trouble::new(key, error.to_string(), "change the value")
 }

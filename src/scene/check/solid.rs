@@ -23,23 +23,40 @@ pub(super) fn solid_phase(
         };
     }
     let section = section.cloned().unwrap_or_default();
-    let weighting = match section.weighting {
-        WeightingName::NobleTorczynski => Weighting::NobleTorczynski,
-        WeightingName::SolidFraction => Weighting::SolidFraction,
-        WeightingName::Viscous => Weighting::Viscous,
-    };
     let operator = match section.operator {
         OperatorName::BounceBack => SolidOperator::NonEquilibriumBounceBack,
         OperatorName::Superposition => SolidOperator::Superposition,
-        OperatorName::FullBounceBack if has_free => {
+        OperatorName::FullBounceBack | OperatorName::GradedViscosity if has_free => {
             let problem = "free grains are unstable with it: what a grain takes of the fluid's momentum in a step is twice \
                            what it holds";
             let remedy = "take `operator = \"bounce_back\"`, or grains that are fixed or whose motion is prescribed";
             return Err(Trouble::new("solid.operator", problem, remedy));
         }
         OperatorName::FullBounceBack => SolidOperator::FullBounceBack,
+        OperatorName::GradedViscosity => SolidOperator::GradedViscosity,
     };
+    let weighting = weighting(&section)?;
     Ok(Some(SolidPhase { solids, weighting, operator, coverage: coverage(&section)? }))
+}
+
+fn weighting(section: &SolidSection) -> Result<Weighting, Trouble> {
+    if section.operator == OperatorName::GradedViscosity {
+        return match section.weighting {
+            None => Ok(Weighting::Graded),
+            Some(_) => {
+                let problem = "the operator graded_viscosity has a weight of its own";
+                Err(Trouble::new(
+                    "solid.weighting",
+                    problem,
+                    "remove this key, or take another operator",
+                ))
+            }
+        };
+    }
+    Ok(match section.weighting {
+        None | Some(WeightingName::NobleTorczynski) => Weighting::NobleTorczynski,
+        Some(WeightingName::SolidFraction) => Weighting::SolidFraction,
+    })
 }
 
 fn coverage(section: &SolidSection) -> Result<CoverageRule, Trouble> {

@@ -13,9 +13,10 @@ mod trials;
 
 use common::Budget;
 use common::random::Random;
+use common::solid_rules::solid_rules;
 use parity::{
-    Both, CELLS, G, OPERATORS, WEIGHTINGS, collisions, error_of_one_step, given_fractions,
-    mixed_faces, random_state, scenes, waves,
+    Both, CELLS, G, collisions, error_of_one_step, given_fractions, mixed_faces, random_state,
+    scenes, waves,
 };
 use psmrt::engine::EngineName;
 use psmrt_reference::domain::{Domain, Faces};
@@ -39,16 +40,14 @@ fn one_step(budget: &mut Budget) {
         measure(&format!("{name}; body force"), &forced, &mut random);
     }
     let (_, collision) = collisions().remove(3);
-    for weighting in WEIGHTINGS {
-        for operator in OPERATORS {
-            for moving in [false, true] {
-                let solids = given_fractions(&mut random, moving);
-                let phase = SolidPhase { solids, weighting, operator, ..SolidPhase::default() };
-                let setup = Setup::fluid(periodic(), collision).with_solids(phase);
-                let motion = if moving { "moving" } else { "fixed" };
-                let what = format!("d'Humieres; {motion} solids; {weighting:?}; {operator:?}");
-                measure(&what, &setup, &mut random);
-            }
+    for (operator, weighting) in solid_rules() {
+        for moving in [false, true] {
+            let solids = given_fractions(&mut random, moving);
+            let phase = SolidPhase { solids, weighting, operator, ..SolidPhase::default() };
+            let setup = Setup::fluid(periodic(), collision).with_solids(phase);
+            let motion = if moving { "moving" } else { "fixed" };
+            let what = format!("d'Humieres; {motion} solids; {weighting:?}; {operator:?}");
+            measure(&what, &setup, &mut random);
         }
     }
     for (number, faces) in mixed_faces().into_iter().enumerate() {

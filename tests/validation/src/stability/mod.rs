@@ -102,7 +102,7 @@ impl Line {
             None => "none",
             Some(Weighting::NobleTorczynski) => "NT",
             Some(Weighting::SolidFraction) => "eps",
-            Some(Weighting::Viscous) => "viscous",
+            Some(Weighting::Graded) => "graded",
         }
     }
 }

@@ -14,7 +14,7 @@ const NAMES: [&str; 4] = [
     "SC1, non-equilibrium bounce-back",
     "SC2, superposition",
     "SC3, full bounce-back",
-    "SC3 with the viscous weight",
+    "graded viscosity",
 ];
 
 const MARKERS: [Marker; 4] =

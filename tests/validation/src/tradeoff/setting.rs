@@ -85,12 +85,12 @@ impl Setting {
         changes.push(format!("time.tau={}", parameters.tau));
         changes.extend(preset_changes(parameters.collision));
         if parameters.flow != Flow::Poiseuille {
-            let weight = match &*parameters.weight {
-                "eps" => "solid_fraction",
-                "viscous" => "viscous",
-                _ => "noble_torczynski",
-            };
-            changes.push(format!("solid.weighting=\"{weight}\""));
+            match &*parameters.weight {
+                "eps" => changes.push("solid.weighting=\"solid_fraction\"".to_owned()),
+                "NT" => changes.push("solid.weighting=\"noble_torczynski\"".to_owned()),
+                // The operator's own.
+                _ => {}
+            }
             changes.push(format!("solid.operator=\"{}\"", parameters.operator));
             match parameters.coverage {
                 CoverageRule::Exact => {}

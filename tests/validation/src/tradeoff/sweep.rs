@@ -29,7 +29,7 @@ pub const OPERATORS: [(&str, &str); 4] = [
     ("bounce_back", "NT"),
     ("superposition", "NT"),
     ("full_bounce_back", "NT"),
-    ("full_bounce_back", "viscous"),
+    ("graded_viscosity", "graded"),
 ];
 
 /// The runs that compare operators in fixed beds, on the CPU engine in double precision.
