@@ -22,7 +22,8 @@
 //! * In steady creeping flow the populations depend on `tau` by the product of the two `1/s - 1/2` alone, if forces go with
 //!   the viscosity (Ginzburg, Verhaeghe & d'Humières, Commun. Comput. Phys. 3, 427 (2008)). In cut cells the product is `Λ_c`
 //!   at every `tau`. It is small because the place of a wall between cells hangs on it; 0 would leave the odd moments undamped.
-//! * `k` and `Λ_c` are fitted to the drag on arrays of spheres (Zick & Homsy 1982) with 13.9 and 15.8 cells per diameter;
+//! * `k` and `Λ_c` are fitted to the drag on arrays of spheres (Zick & Homsy 1982) with 13.9 and 15.8 cells per diameter. `k`
+//!   adds an error of first order: it puts walls up to 0.07 cells into the fluid (`tests/oracle/tight_solids.rs`);
 //!   `golden/tradeoff/operators.csv` has other arrays, grids and Reynolds numbers.
 
 use std::sync::LazyLock;

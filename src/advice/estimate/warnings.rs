@@ -6,6 +6,7 @@ mod contacts;
 mod density;
 mod ends;
 mod faces;
+mod graded;
 mod gravity;
 mod lists;
 mod prescribed;
@@ -21,6 +22,7 @@ use crate::scene::Scene;
 const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     scales::warnings,
     accuracy::warnings,
+    graded::warnings,
     faces::warnings,
     start::warnings,
     ends::warnings,

