@@ -9,7 +9,7 @@
 #include "psmrt_kit.h"
 
 #define Q 19
-#define KIT_VERSION 1
+#define KIT_VERSION 2
 
 static const int C[Q][3] = {
     {0, 0, 0},  {1, 0, 0},   {-1, 0, 0}, {0, 1, 0},  {0, -1, 0},  {0, 0, 1},  {0, 0, -1},
@@ -137,7 +137,9 @@ static void states(const char *kit, const char *out) {
 
 /* One cell: f becomes f*, force is that on the solid. What is absent is NULL. */
 static void collide(double f[Q], double tau, const double *rates, const double *g, const double *epsilon,
-                    const double *u_p, int superposition, double force[3]) {
+                    const double *u_p, const char *problem, double force[3]) {
+    const int superposition = strstr(problem, "superposition") != NULL;
+    const int whole = strstr(problem, "full_bounce_back") != NULL;
     double rho, j[3], bare[3], u[3], s[Q], change[Q], *diagonal = NULL, B = 0;
     conserved(f, &rho, j);
     for (int i = 0; i < 3; i++) {
@@ -163,7 +165,8 @@ static void collide(double f[Q], double tau, const double *rates, const double *
         omega(f, rho, bare, diagonal, tau, relaxation);
         for (int a = 0; a < Q; a++) {
             int b = opposite[a];
-            lambda[a] = superposition ? solid[a] - f_eq[a] + relaxation[a] : f[b] - f_eq[b] + solid[a] - f[a];
+            const double *turned = whole ? solid : f_eq;
+            lambda[a] = superposition ? solid[a] - f_eq[a] + relaxation[a] : f[b] - turned[b] + solid[a] - f[a];
         }
     }
     force[0] = force[1] = force[2] = 0;
@@ -182,7 +185,7 @@ static void collisions(const char *kit, const char *out, const char *problem) {
     for (size_t i = 0; i < n; i++)
         collide(f.values + Q * i, tau.values[i], rates.values ? rates.values + 6 * i : NULL,
                 g.values ? g.values + 3 * i : NULL, epsilon.values ? epsilon.values + i : NULL,
-                u_p.values ? u_p.values + 3 * i : NULL, strstr(problem, "superposition") != NULL, force + 3 * i);
+                u_p.values ? u_p.values + 3 * i : NULL, problem, force + 3 * i);
     kit_write(out, problem, "post", f.values, 2, (size_t[]){n, Q});
     if (epsilon.values) kit_write(out, problem, "force", force, 2, (size_t[]){n, 3});
 }
@@ -190,7 +193,7 @@ static void collisions(const char *kit, const char *out, const char *problem) {
 int main(int count, char **arguments) {
     static const char *const problems[] = {
         "srt", "mrt", "srt_force", "mrt_force", "ps_srt", "ps_mrt", "ps_srt_force", "ps_mrt_force",
-        "ps_srt_superposition", "ps_mrt_superposition"};
+        "ps_srt_superposition", "ps_mrt_superposition", "ps_srt_full_bounce_back", "ps_mrt_full_bounce_back"};
     if (count != 3) {
         fprintf(stderr, "usage: %s KIT CANDIDATE\n", arguments[0]);
         return 2;

@@ -33,11 +33,11 @@ MISTAKES = """
     weights_swapped opposites_in_pairs opposites_mirrored moments_not_orthogonal moments_reordered
     equilibrium_linear equilibrium_three equilibrium_without_square optimised_constants
     constant_density eq2_without_tau eq4_without_tau s9_is_tau s_hat_without_blank s_hat_13th
-    pi_rate_is_eps rates_q_and_m_swapped rates_e_and_eps_swapped viscosity_without_third
+    pi_rate_is_eps pi_rate_is_nu rates_q_and_m_swapped rates_e_and_eps_swapped viscosity_without_third
     viscosity_without_half velocity_without_half_force source_without_half_rate naive_force
-    body_force_not_weighted eq5_sign full_bounce_back b_is_epsilon fluid_part_not_weighted
+    body_force_not_weighted eq5_sign full_bounce_back equilibrium_not_reversed b_is_epsilon b_with_tau fluid_part_not_weighted
     solid_with_half_force solid_at_rest rotation_missing spin_reversed superposition_tau
-    other_operator weights_not_shared force_sign force_without_weight torque_arm_not_wrapped
+    other_operator eq5_for_full_bounce_back full_bounce_back_half_velocity weights_not_shared force_sign force_without_weight torque_arm_not_wrapped
     arm_not_wrapped torque_about_origin torque_reversed coverage_staircase coverage_linear
     radius_is_diameter coverage_not_updated wall_on_node moving_wall_without_two moving_wall_sign
     moving_wall_density_one free_slip_is_no_slip pressure_sign pressure_without_velocity
@@ -150,6 +150,8 @@ class Candidate:
             nu = 1 / nu
         if self.has("pi_rate_is_eps"):
             pi = eps
+        if self.has("pi_rate_is_nu"):
+            pi = nu
         zero = 0 * e
         thirteenth = nu if self.has("s_hat_13th") else pi
         diagonal = [zero, e, eps, zero, q, zero, q, zero, q, nu, pi, nu, thirteenth, nu, nu, nu, m, m, m]
@@ -165,7 +167,8 @@ class Candidate:
     def weight(self, epsilon, tau):
         if self.has("b_is_epsilon"):
             return epsilon
-        return epsilon * (tau - 0.5) / ((1 - epsilon) + (tau - 0.5))
+        excess = tau if self.has("b_with_tau") else tau - 0.5
+        return epsilon * excess / ((1 - epsilon) + excess)
 
     def share(self, epsilon, tau):
         """Weights of the solids (first axis) of each cell, and that of the cell."""
@@ -204,7 +207,7 @@ class Candidate:
         return (j + g / 2) / rho[..., None]
 
     def lambda_(self, f, rho, u, u_p, rules):
-        """Eq. 5, its sign put right, or the superposition operator."""
+        """Eq. 5, its sign put right, or one of the other two operators."""
         if self.has("solid_at_rest"):
             u_p = 0 * u_p
         f_eq, solid, back = self.equilibrium(rho, u), self.equilibrium(rho, u_p), self.opposite
@@ -212,10 +215,14 @@ class Candidate:
             if self.has("superposition_tau") and rules["s_hat"] is not None:
                 return solid - f + (1 - 1 / rules["tau"][..., None]) * (f - f_eq)
             return solid - f_eq + self.omega(f, rho, u, rules)
+        whole = rules["operator"] == "full_bounce_back"
+        if self.has("full_bounce_back") or (whole and not self.has("eq5_for_full_bounce_back")):
+            share = 0.5 if whole and self.has("full_bounce_back_half_velocity") else 1
+            return f[..., back] - f + share * (solid - solid[..., back])
         if self.has("eq5_sign"):
             return f[..., back] + f_eq[..., back] + solid - f
-        if self.has("full_bounce_back"):
-            return f[..., back] - solid[..., back] + solid - f
+        if self.has("equilibrium_not_reversed"):
+            return f[..., back] - f_eq + solid - f
         return f[..., back] - f_eq[..., back] + solid - f
 
     def collide(self, f, rules, epsilon=None, u_p=None):

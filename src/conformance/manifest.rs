@@ -112,10 +112,14 @@ pub struct CandidateManifest {
 }
 
 /// What the flags of problems mean.
-const FLAGS: [(&str, &str); 24] = [
+const FLAGS: [(&str, &str); 25] = [
     ("body_force", "a body force acts on the fluid"),
     ("corners", "faces of different kinds meet in edges and corners"),
     ("exact_coverage", "needs exact solid fractions of your own; leave it out if you sample"),
+    (
+        "full_bounce_back",
+        "bounce-back of the whole populations about the solid's velocity instead of the paper's Eq. 5",
+    ),
     ("formulas", "no code of a solver is needed"),
     ("free_slip", "a free-slip face"),
     ("friction", "contacts with friction"),

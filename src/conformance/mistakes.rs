@@ -21,6 +21,7 @@ pub enum Mistake {
     SHatWithoutBlank,
     SHat13th,
     PiRateIsEps,
+    PiRateIsNu,
     RatesQAndMSwapped,
     RatesEAndEpsSwapped,
     ViscosityWithoutThird,
@@ -31,7 +32,9 @@ pub enum Mistake {
     BodyForceNotWeighted,
     Eq5Sign,
     FullBounceBack,
+    EquilibriumNotReversed,
     BIsEpsilon,
+    BWithTau,
     FluidPartNotWeighted,
     SolidWithHalfForce,
     SolidAtRest,
@@ -39,6 +42,8 @@ pub enum Mistake {
     SpinReversed,
     SuperpositionTau,
     OtherOperator,
+    Eq5ForFullBounceBack,
+    FullBounceBackHalfVelocity,
     WeightsNotShared,
     ForceSign,
     ForceWithoutWeight,
@@ -104,7 +109,7 @@ impl Mistake {
 
 /// All mistakes, in the order of the problems that show them first.
 #[rustfmt::skip]
-pub const CATALOGUE: [Entry; 64] = [
+pub const CATALOGUE: [Entry; 69] = [
     entry(
         Mistake::WeightsSwapped,
         "weights_swapped",
@@ -202,6 +207,12 @@ pub const CATALOGUE: [Entry; 64] = [
         "S-hat: the 11th and 13th entries have a rate of their own, s_pi",
     ),
     entry(
+        Mistake::PiRateIsNu,
+        "pi_rate_is_nu",
+        "pi_xx and pi_ww relax with the rate of the stress",
+        "S-hat: the 11th and 13th entries have a rate of their own, s_pi",
+    ),
+    entry(
         Mistake::RatesQAndMSwapped,
         "rates_q_and_m_swapped",
         "the rates of q and m are swapped",
@@ -262,9 +273,21 @@ pub const CATALOGUE: [Entry; 64] = [
         "Eq. 5 and the sentence after it: f_-a - f_eq_-a(rho, u) + f_eq_a(rho, u_p) - f_a",
     ),
     entry(
+        Mistake::EquilibriumNotReversed,
+        "equilibrium_not_reversed",
+        "the fluid's equilibrium in Lambda is that of the direction itself, not of the opposite one",
+        "Eq. 5, corrected: Lambda_a = f_-a - f_eq_-a(rho, u) + f_eq_a(rho, u_p) - f_a",
+    ),
+    entry(
         Mistake::BIsEpsilon,
         "b_is_epsilon",
         "the weight is the solid fraction itself, not weighted by tau",
+        "B = epsilon (tau - 1/2)/[(1 - epsilon) + (tau - 1/2)]",
+    ),
+    entry(
+        Mistake::BWithTau,
+        "b_with_tau",
+        "tau stands for tau - 1/2 in the weight",
         "B = epsilon (tau - 1/2)/[(1 - epsilon) + (tau - 1/2)]",
     ),
     entry(
@@ -308,6 +331,18 @@ pub const CATALOGUE: [Entry; 64] = [
         "other_operator",
         "the two solid operators are taken for each other",
         "the parameter operator of the problem",
+    ),
+    entry(
+        Mistake::Eq5ForFullBounceBack,
+        "eq5_for_full_bounce_back",
+        "under full bounce-back only the non-equilibrium part is bounced back, as in Eq. 5",
+        "full bounce-back: Lambda_a = f_-a - f_eq_-a(rho, u_p) + f_eq_a(rho, u_p) - f_a",
+    ),
+    entry(
+        Mistake::FullBounceBackHalfVelocity,
+        "full_bounce_back_half_velocity",
+        "under full bounce-back 3 w rho c.u_p stands for 6 w rho c.u_p",
+        "full bounce-back: f_eq_a(rho, u_p) - f_eq_-a(rho, u_p) = 6 w rho c.u_p",
     ),
     entry(
         Mistake::WeightsNotShared,

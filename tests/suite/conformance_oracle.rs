@@ -215,7 +215,7 @@ impl Candidate for Backwards {
 fn any_order_of_directions_is_sorted_by_the_judge() {
     let verdict = judged(&mut Backwards);
     assert!(verdict.passed() && verdict.largest_error() == 0.0, "{verdict}");
-    assert_eq!(verdict.attempted(), 6 + 16 + 7);
+    assert_eq!(verdict.attempted(), 6 + 20 + 7);
 }
 
 #[test]

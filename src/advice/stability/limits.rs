@@ -47,7 +47,7 @@ impl Measured {
             Measured::Fluid => "shear layer",
             Measured::Bed(Weighting::NobleTorczynski) => "bed NT",
             Measured::Bed(Weighting::SolidFraction) => "bed eps",
-            Measured::Bed(Weighting::Graded) => return None,
+            Measured::Bed(Weighting::Graded) => "bed graded",
         };
         let own = lines("fastest", &format!("{flow} {}", model.word()));
         let above = own.iter().position(|one| one.tau >= tau)?;

@@ -143,13 +143,24 @@ impl Model {
             let omega = self.relaxation(f, rho, u, rules);
             return std::array::from_fn(|a| solid[a] - f_eq[a] + omega[a]);
         }
+        let is_whole = operator == SolidOperator::FullBounceBack
+            && !self.has(Mistake::Eq5ForFullBounceBack)
+            || self.has(Mistake::FullBounceBack);
+        if is_whole {
+            let half = operator == SolidOperator::FullBounceBack
+                && self.has(Mistake::FullBounceBackHalfVelocity);
+            let share = if half { 0.5 } else { 1.0 };
+            return std::array::from_fn(|a| {
+                let b = self.opposite[a];
+                f[b] - f[a] + (solid[a] - solid[b]) * share
+            });
+        }
         std::array::from_fn(|a| {
             let b = self.opposite[a];
             let turned = if self.has(Mistake::Eq5Sign) {
                 f[b] + f_eq[b]
-            } else if operator == SolidOperator::FullBounceBack || self.has(Mistake::FullBounceBack)
-            {
-                f[b] - solid[b]
+            } else if self.has(Mistake::EquilibriumNotReversed) {
+                f[b] - f_eq[a]
             } else {
                 f[b] - f_eq[b]
             };

@@ -161,6 +161,7 @@ impl Model {
             Some(Mistake::RatesEAndEpsSwapped) => (e, eps) = (eps, e),
             Some(Mistake::S9IsTau) => nu = 1.0 / nu,
             Some(Mistake::PiRateIsEps) => pi = eps,
+            Some(Mistake::PiRateIsNu) => pi = nu,
             _ => {}
         }
         let thirteenth = if self.has(Mistake::SHat13th) { nu } else { pi };
@@ -187,7 +188,8 @@ impl Model {
         if self.has(Mistake::BIsEpsilon) {
             return epsilon;
         }
-        let beyond = Gauged::from(tau) - 0.5.into();
+        let half = if self.has(Mistake::BWithTau) { 0.0 } else { 0.5 };
+        let beyond = Gauged::from(tau) - half.into();
         epsilon * beyond / (Gauged::from(1.0) - epsilon + beyond)
     }
 

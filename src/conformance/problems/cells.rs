@@ -41,6 +41,7 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
     let bounce = SolidOperator::NonEquilibriumBounceBack;
     let solid = Some((bounce, Weighting::NobleTorczynski));
     let superposed = Some((SolidOperator::Superposition, Weighting::NobleTorczynski));
+    let whole = Some((SolidOperator::FullBounceBack, Weighting::NobleTorczynski));
     for (seed, (id, title, equation, flags, parts)) in [
         ("srt", "SRT", "Eq. 2", &["srt"] as &[_], Parts::new(false, false, None)),
         ("mrt", "MRT", "Eq. 3", &["mrt"], Parts::new(true, false, None)),
@@ -99,6 +100,20 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             "Lambda = f_eq(rho, u_p) - f_eq(rho, u) + Omega, Omega of Eq. 3",
             &["mrt", "solid", "superposition"],
             Parts::new(true, false, superposed),
+        ),
+        (
+            "ps_srt_full_bounce_back",
+            "PS-SRT, full bounce-back",
+            "Lambda_a = f_-a - f_eq_-a(rho, u_p) + f_eq_a(rho, u_p) - f_a",
+            &["srt", "solid", "full_bounce_back"],
+            Parts::new(false, false, whole),
+        ),
+        (
+            "ps_mrt_full_bounce_back",
+            "PS-MRT with a body force, full bounce-back",
+            "Lambda_a = f_-a - f_eq_-a(rho, u_p) + f_eq_a(rho, u_p) - f_a",
+            &["mrt", "solid", "full_bounce_back", "body_force"],
+            Parts::new(true, true, whole),
         ),
     ]
     .into_iter()

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use psmrt_reference::collision::Preset;
 use psmrt_reference::domain::{Face, Faces};
 use psmrt_reference::lattice::{Vec3, viscosity};
-use psmrt_reference::partial_saturation::Weighting;
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::setup::SolidPhase;
 use psmrt_reference::solids::Solid;
 
@@ -90,8 +90,12 @@ pub(super) const BY_INLET: Flow = Flow {
             ("free", Weighting::NobleTorczynski),
             ("free", Weighting::SolidFraction),
             ("pressure", Weighting::NobleTorczynski),
+            ("free", Weighting::Graded),
         ] {
             for model in [Preset::Srt, Preset::DHumieres] {
+                if weighting == Weighting::Graded && model == Preset::Srt {
+                    continue;
+                }
                 let weighting = Some(weighting);
                 all.extend(INLET_TAUS.map(|tau| Line { engine, model, weighting, variant, tau }));
             }
@@ -103,16 +107,20 @@ pub(super) const BY_INLET: Flow = Flow {
 
 fn lines(engine: EngineName) -> Vec<Line> {
     let mut all = Vec::new();
-    for weighting in [Weighting::NobleTorczynski, Weighting::SolidFraction] {
+    for weighting in [Weighting::NobleTorczynski, Weighting::SolidFraction, Weighting::Graded] {
         for model in Preset::ALL {
             let weighting = Some(weighting);
             all.extend(TAUS.map(|tau| Line { engine, model, weighting, variant: "", tau }));
         }
     }
-    // B = epsilon is no default: the paper's two collisions, at fewer relaxation times.
-    all.retain(|line| {
-        line.weighting == Some(Weighting::NobleTorczynski)
-            || (line.model != Preset::Trt && ![0.500_01, 0.55, 0.8, 2.0].contains(&line.tau))
+    // B = epsilon is no default: the paper's two collisions, at fewer relaxation times. Graded viscosity is made for
+    // d'Humieres' rates.
+    all.retain(|line| match line.weighting {
+        Some(Weighting::Graded) => line.model == Preset::DHumieres,
+        Some(Weighting::SolidFraction) => {
+            line.model != Preset::Trt && ![0.500_01, 0.55, 0.8, 2.0].contains(&line.tau)
+        }
+        Some(Weighting::NobleTorczynski) | None => true,
     });
     all
 }
@@ -143,11 +151,13 @@ fn gradient(speed: f64, nu: f64) -> f64 {
 }
 
 fn phase(line: &Line, centres: &[Vec3]) -> SolidPhase {
-    SolidPhase {
-        solids: centres.iter().map(|&centre| Solid::fixed_sphere(centre, radius())).collect(),
-        weighting: line.weighting.unwrap_or_default(),
-        ..SolidPhase::default()
-    }
+    let weighting = line.weighting.unwrap_or_default();
+    let operator = match weighting {
+        Weighting::Graded => SolidOperator::GradedViscosity,
+        Weighting::NobleTorczynski | Weighting::SolidFraction => SolidOperator::default(),
+    };
+    let solids = centres.iter().map(|&centre| Solid::fixed_sphere(centre, radius())).collect();
+    SolidPhase { solids, weighting, operator, ..SolidPhase::default() }
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "kept within bounds")]

@@ -107,6 +107,7 @@ pub fn coefficients() -> Result<Table, TableError> {
         ("shear layer", SHEAR_LAYER, "none", "golden/stability/shear_layer.csv"),
         ("bed NT", BED, "NT", "golden/stability/bed_force.csv"),
         ("bed eps", BED, "eps", "golden/stability/bed_force.csv"),
+        ("bed graded", BED, "graded", "golden/stability/bed_force.csv"),
     ] {
         let all = frontiers(&Table::parse(source, text)?)?;
         for collision in Preset::ALL {
