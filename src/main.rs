@@ -74,7 +74,7 @@ Examples:
         set: Vec<String>,
         #[command(flatten)]
         engine: EngineArguments,
-        /// Prints seconds per step of fluid, forces, grains, coverage and transfers (engine wgpu)
+        /// Prints seconds per step of fluid, forces, grains, coverage and transfers (engines cpu and wgpu)
         #[arg(long)]
         profile: bool,
     },
@@ -176,7 +176,7 @@ fn engine_words() -> impl Iterator<Item = &'static str> {
 #[derive(clap::Args)]
 struct EngineArguments {
     /// What computes: `reference`, the oracle; `cpu` and `cpu_single`, fast on the CPU; `wgpu` in single precision on an
-    /// adapter; `auto` wgpu where there is a GPU in hardware, else cpu [default: the scene's, else reference]
+    /// adapter; `auto` wgpu where there is a GPU in hardware, else cpu [default: the scene's, else cpu]
     #[arg(long, value_parser = PossibleValuesParser::new(engine_words()))]
     engine: Option<String>,
     /// A part of the adapter's name, see `psmrt info`; alone it stands for `--engine wgpu` too

@@ -15,7 +15,7 @@
 //! with one state instead of two, but the rings end in the middle of rows, at nineteen places that change.)
 //!
 //! Cells are numbered through, so what leaves a row at its end is found at the start of the next one: of the populations
-//! that enter the domain none is where `before` looks for it, until `faces.rs` has put it there.
+//! that enter the domain none is where `before` looks for it, until `faces` has put it there.
 
 use psmrt_reference::directions::{C, OPPOSITE, Q};
 

@@ -2,11 +2,11 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `fluid.rs` | [`Fluid`]: the order of a step, and what may be asked |
+//! | `fluid/` | [`Fluid`]: the order of a step, and what may be asked |
 //! | `grid.rs` | the populations in memory, updated in place |
 //! | `collision/` | the collision of a vector of cells |
 //! | `pass.rs` | one pass over a run of cells |
-//! | `faces.rs` | the populations that enter through the faces |
+//! | `faces/` | the populations that enter through the faces |
 //! | `coverage.rs`, `fields.rs` | what solids cover, run by run |
 //! | `rigid.rs`, `received.rs` | how they move, and what they receive |
 //! | `observe.rs` | density and momentum of cells, and what a guard sees of them |

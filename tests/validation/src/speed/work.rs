@@ -6,6 +6,7 @@ use psmrt_reference::collision::{Collision, Preset};
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::{Domain, DomainError, Face, Faces};
 use psmrt_reference::lattice::Vec3;
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 use std::sync::Arc;
@@ -74,6 +75,12 @@ pub fn works(side: usize) -> Result<Vec<Work>, DomainError> {
     let held = fluid(mrt).with_solids(bed(side, 16, 0.6, still));
     let moving = fluid(mrt).with_solids(bed(side, 16, 0.4, velocity));
     let small = fluid(mrt).with_solids(bed(side, 8, 0.13, velocity));
+    let phase = SolidPhase {
+        operator: SolidOperator::GradedViscosity,
+        weighting: Weighting::Graded,
+        ..bed(side, 16, 0.6, still)
+    };
+    let graded = fluid(mrt).with_solids(phase);
     let linear = |setup: &Setup| {
         let phase = setup.solid_phase.clone().unwrap_or_default();
         setup.clone().with_solids(SolidPhase { coverage: CoverageRule::Linear, ..phase })
@@ -86,6 +93,7 @@ pub fn works(side: usize) -> Result<Vec<Work>, DomainError> {
         work("MRT, body force", fluid(mrt).with_body_force(velocity), Besides::Nothing),
         work("MRT, lid-driven cavity", Setup::fluid(cavity, mrt), Besides::Nothing),
         work("PS-MRT, fixed bed of 0.6", held.clone(), Besides::Nothing),
+        work("PS-MRT, fixed bed of 0.6, graded viscosity", graded, Besides::Nothing),
         work("PS-MRT, fixed bed of 0.6, forces", held, Besides::Forces),
         work("PS-MRT, bed of 0.4 on the move, forces", moving, Besides::Forces),
         work(

@@ -88,7 +88,7 @@ pub fn figures(rows: &[Row]) -> Vec<Figure> {
         for (number, operator) in OPERATORS.into_iter().enumerate() {
             let points = against_tau(rows, bed, operator);
             let points = points.into_iter().map(|(tau, error)| (tau - 0.5, error)).collect();
-            let style = Style::Points(Some(MARKERS[number]));
+            let style = Style::LinePoints(Some(MARKERS[number]));
             figure = figure.with(Series::new(NAMES[number], style, points).with_colour(number));
         }
         let exact = Series::new("exact", Style::Reference, vec![(0.05, 0.0), (1.0, 0.0)]);

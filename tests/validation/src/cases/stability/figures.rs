@@ -67,7 +67,7 @@ fn reynolds(rows: &Table) -> Result<Figure, CaseError> {
         tau(),
         Axis::log("largest Re = U d/(ν (1 - porosity))"),
     );
-    for (weight, word) in [("NT", "B(ε, τ)"), ("eps", "B = ε")] {
+    for (weight, word) in [("NT", "B(ε, τ)"), ("eps", "B = ε"), ("graded", "graded viscosity")] {
         for (collision, label) in COLLISIONS {
             let own = [
                 ("flow", "bed_force"),

@@ -1,25 +1,25 @@
-//! The fluid of a domain: the order of a step, and what may be asked of it.
+//! The fluid of a domain: the order of a step.
 
-use std::io::{self, Read, Write};
+mod observed;
+mod saved;
+
 use std::sync::{Mutex, PoisonError};
 
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::{Drive, DriveError};
-use psmrt_reference::guard::{Failure, Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Load, Solid};
 use pulp::Arch;
 use rayon::prelude::*;
 
-use super::collision::{Rules, weight};
-use super::coverage::Coverage;
-use super::faces::Entering;
-use super::fields::{Adding, Fields, Seen};
-use super::grid::Grid;
-use super::observe::{Sums, sum};
-use super::pass::Pass;
-use super::received::{Received, Receiving};
+use crate::cpu::collision::{Rules, weight};
+use crate::cpu::coverage::Coverage;
+use crate::cpu::faces::Entering;
+use crate::cpu::fields::{Adding, Fields, Seen};
+use crate::cpu::grid::Grid;
+use crate::cpu::pass::Pass;
+use crate::cpu::received::{Received, Receiving};
 use crate::lanes::Real;
 
 /// Cells that a thread takes at a time, in whole rows: with what solids cover of them they stay in its own cache.
@@ -227,62 +227,6 @@ impl<T: Real> Fluid<T> {
         }
     }
 
-    /// Calls `look(first cell, density less 1 and momentum of its cells)` for each run, where the cells are
-    /// before their next collision, and gives what it returns in the order of the runs.
-    fn look_at_runs<R: Send>(&self, look: impl Fn(usize, &Seen<T>) -> R + Sync) -> Vec<R> {
-        let domain = &self.setup.domain;
-        let cells = domain.cell_count();
-        let rows = self.run / domain.cells()[0];
-        let at_run = |run: usize| {
-            let first = run * self.run;
-            let mut copies = self.copies(run);
-            let mut values = slices(&mut copies);
-            self.entering.now().put(run * rows, &mut values);
-            let mut spare = taken(&self.scratch, self.run);
-            self.arch.dispatch(Sums { run: &values, seen: &mut spare.seen });
-            let result = look(first, &spare.seen);
-            given_back(&self.scratch, spare);
-            result
-        };
-        (0..cells.div_ceil(self.run)).into_par_iter().map(at_run).collect()
-    }
-
-    /// The populations of a run, where `before` looks for them.
-    fn copies(&self, run: usize) -> Vec<Vec<T>> {
-        let first = run * self.run;
-        let cells = first..self.setup.domain.cell_count().min(first + self.run);
-        (0..Q).map(|a| self.grid.before(a)[cells.clone()].to_vec()).collect()
-    }
-
-    /// What the solids would receive in the next step.
-    fn next_received(&self) -> (Vec<Load>, Vec<f64>) {
-        let Some(coverage) = &self.coverage else { return (Vec::new(), Vec::new()) };
-        let run = |run: usize| {
-            if coverage.parts(run).is_empty() {
-                return Vec::new();
-            }
-            let rows = self.run / self.setup.domain.cells()[0];
-            let (mut copies, first) = (self.copies(run), run * self.run);
-            let mut values = slices(&mut copies);
-            self.entering.now().put(run * rows, &mut values);
-            let mut spare = taken(&self.scratch, self.run);
-            spare.fields.add((coverage, self.solids()), run, first);
-            let solids = Some((&spare.fields, Some(&mut spare.seen)));
-            self.arch.dispatch(Pass { rules: &self.rules, run: &mut values, solids });
-            let received = self.arch.dispatch(Receiving {
-                fields: &spare.fields,
-                solids: self.solids(),
-                seen: &spare.seen,
-                gain: self.rules.gain(),
-            });
-            spare.fields.clear();
-            given_back(&self.scratch, spare);
-            received
-        };
-        let received: Vec<Vec<Received>> = (0..self.kept.len()).into_par_iter().map(run).collect();
-        added_up(&received, self.loads.len())
-    }
-
     /// The populations of one cell before its next collision.
     pub fn populations(&self, cell: usize) -> [f64; Q] {
         let value = |a: usize| {
@@ -327,115 +271,6 @@ impl<T: Real> Fluid<T> {
     pub fn displaced(&self) -> Vec<f64> {
         self.displaced.clone().unwrap_or_else(|| self.next_received().1)
     }
-
-    /// Mean density, mean mass flux (the mean of the momentum before and after the next collision, solid cells included)
-    /// and the largest speed in any cell.
-    pub fn means(&self) -> (f64, Vec3, f64) {
-        let g = self.body_force();
-        let parts = self.look_at_runs(|first, seen| {
-            let count = self.run.min(self.setup.domain.cell_count() - first);
-            let [excess, jx, jy, jz, _] = seen.of.each_ref().map(|of| sum(&of[..count]));
-            let speed = |cell: usize| {
-                let [excess, jx, jy, jz, _] = seen.of.each_ref().map(|of| of[cell].to_f64());
-                ((Vec3::new(jx, jy, jz) + 0.5 * g) / (1.0 + excess)).norm_squared()
-            };
-            (excess, Vec3::new(jx, jy, jz), (0..count).map(speed).fold(0.0, f64::max))
-        });
-        let n = self.setup.domain.cell_count() as f64;
-        let excess: f64 = parts.iter().map(|part| part.0).sum();
-        let momentum: Vec3 = parts.iter().map(|part| part.1).sum();
-        let (loads, displaced) = self.next_received();
-        let received: Vec3 = loads.iter().map(|load| load.force).sum();
-        let displaced: f64 = displaced.iter().sum();
-        // The next collision changes Σ j by Σ (1 - B) G - Σ_s F_s.
-        let change = (n - displaced) * g - received;
-        let density = 1.0 + excess / n;
-        let speed = parts.iter().map(|part| part.2).fold(0.0, f64::max).sqrt();
-        (density, (momentum + 0.5 * change) / n, speed)
-    }
-
-    /// What `guard` wants to know of all cells.
-    pub fn findings(&self, guard: &Guard) -> Findings {
-        // Cells that come near the limit are looked at again by the guard, in all digits.
-        let limit = self.setup.guard.max_speed * 0.999;
-        let parts = self.look_at_runs(|first, seen| {
-            let count = self.run.min(self.setup.domain.cell_count() - first);
-            let (mut fastest, mut broken) = (0.0_f64, None);
-            for cell in 0..count {
-                let [excess, jx, jy, jz, _] = seen.of.each_ref().map(|of| of[cell].to_f64());
-                let rho = 1.0 + excess;
-                let square = (jx * jx + jy * jy + jz * jz) / (rho * rho);
-                fastest = fastest.max(square);
-                if !(rho > 0.0 && square <= limit * limit) {
-                    let failure: Option<Failure> = guard.failure(&self.populations(first + cell));
-                    if let Some(failure) = failure {
-                        broken = Some((first + cell, failure));
-                        break;
-                    }
-                }
-            }
-            (sum(&seen.of[0][..count]), fastest, broken)
-        });
-        let n = self.setup.domain.cell_count() as f64;
-        Findings {
-            mean_density: 1.0 + parts.iter().map(|part| part.0).sum::<f64>() / n,
-            max_speed: parts.iter().map(|part| part.1).fold(0.0, f64::max).sqrt(),
-            broken: parts.into_iter().find_map(|part| part.2),
-        }
-    }
-
-    /// Total solid fraction of cells.
-    pub fn solid_fractions(&self, cells: &[usize]) -> Vec<f64> {
-        let Some(coverage) = &self.coverage else { return vec![0.0; cells.len()] };
-        let mut found = vec![0.0; cells.len()];
-        let mut fields = Fields::new(self.run);
-        let mut present = None;
-        for (fraction, &cell) in found.iter_mut().zip(cells) {
-            let run = cell / self.run;
-            let first = run * self.run;
-            if present != Some(run) {
-                fields.clear();
-                fields.add((coverage, self.solids()), run, first);
-                present = Some(run);
-            }
-            *fraction = fields.epsilon[cell - first].to_f64().min(1.0);
-        }
-        found
-    }
-
-    /// Writes what it needs to go on, bit for bit, besides its set-up, its solids, their loads and its drive.
-    pub fn save(&self, out: &mut dyn Write) -> io::Result<()> {
-        let cells = self.setup.domain.cell_count();
-        let rows = self.run / self.setup.domain.cells()[0];
-        for run in 0..cells.div_ceil(self.run) {
-            let mut copies = self.copies(run);
-            let mut copies = slices(&mut copies);
-            self.entering.now().put(run * rows, &mut copies);
-            copies.iter().try_for_each(|values| out.write_all(bytemuck::cast_slice(values)))?;
-        }
-        self.entering.slow_means().try_for_each(|mean| out.write_all(&mean.to_le_bytes()))
-    }
-
-    /// Takes what [`Self::save`] wrote for the same scene, with the solids and the loads of then.
-    pub fn load(
-        &mut self,
-        from: &mut dyn Read,
-        solids: Vec<Solid>,
-        loads: Vec<Load>,
-    ) -> io::Result<()> {
-        for values in self.grid.runs(self.run).iter_mut().flatten() {
-            from.read_exact(bytemuck::cast_slice_mut(values))?;
-        }
-        self.entering.forget();
-        for mean in self.entering.slow_means_mut() {
-            let mut bytes = [0; 8];
-            from.read_exact(&mut bytes)?;
-            *mean = f64::from_le_bytes(bytes);
-        }
-        self.place_solids(solids);
-        self.loads = loads;
-        Ok(())
-    }
 }
 
 fn rules_of(setup: &Setup) -> Rules {
@@ -443,12 +278,6 @@ fn rules_of(setup: &Setup) -> Rules {
     let (operator, weighting) =
         phase.map(|phase| (phase.operator, phase.weighting)).unwrap_or_default();
     Rules::new(&setup.collision, setup.body_force, operator, weighting)
-}
-
-/// The arrays of all directions.
-fn slices<T>(arrays: &mut [Vec<T>]) -> [&mut [T]; Q] {
-    let mut arrays = arrays.iter_mut();
-    std::array::from_fn(|_| arrays.next().map(Vec::as_mut_slice).unwrap_or_default())
 }
 
 /// Fields of a run, from the stock or new.
