@@ -2,7 +2,7 @@
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 8 | `PSMRTCK4`: the digit is the version of this format |
+//! | 8 | `PSMRTCK5`: the digit is the version of this format |
 //! | 8 | length of the header |
 //! | | header, JSON: [`Header`] |
 //! | | the engine's state |
@@ -26,7 +26,7 @@ use crate::output::folder::RunFolder;
 use crate::output::hashed::Hashed;
 use crate::scene::{Scene, names};
 
-const MAGIC: &[u8; 8] = b"PSMRTCK4";
+const MAGIC: &[u8; 8] = b"PSMRTCK5";
 
 /// What a run knows of a value that is to become steady (`run/steady.rs`); values as their bits.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]

@@ -75,7 +75,7 @@ pub enum SolidOperator {
     Superposition,
     /// Bounce-back of the whole populations about the solid's velocity (SC3). Solids are tight with it: no fluid passes
     /// through cells that they fill. They take twice the momentum of the first two, so that
-    /// free grains are unstable.
+    /// free grains are coupled implicitly (`coupling/implicit.rs`).
     FullBounceBack,
     /// Cut cells as fluid of graded viscosity ([`crate::graded_viscosity`]); full cells as under full bounce-back. The most
     /// accurate of the four for beds of fixed grains.
@@ -93,6 +93,12 @@ pub struct CellState<'a> {
 }
 
 impl SolidOperator {
+    /// Whether the velocity that a free grain has in a collision is solved for before it (`coupling/implicit.rs`): with
+    /// the one that it has come with, this operator is unstable.
+    pub fn asks_for_implicit_coupling(self) -> bool {
+        self == SolidOperator::FullBounceBack
+    }
+
     /// The change `Lambda` of the populations in a cell full of solid that moves with `u_p`, as a
     /// function of `u_p`: what does not depend on the solid is worked out once for all solids in
     /// the cell. `None` for an operator that is no sum of a fluid and a solid part.

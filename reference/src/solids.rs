@@ -1,6 +1,7 @@
 //! Solids in the fluid: vocabulary that every engine shares. What a shape is like: [`crate::shapes`].
 
 use crate::lattice::Vec3;
+use nalgebra::Matrix3;
 use thiserror::Error;
 
 /// Where a solid is.
@@ -126,4 +127,23 @@ pub struct Load {
     pub force: Vec3,
     /// Torque about the solid's centre.
     pub torque: Vec3,
+}
+
+/// How a solid holds the fluid of its cells: what it would take from it in the next collision, linear in the velocity
+/// that it has there (`coupling/implicit.rs`). With `b = g B_s` in each of its cells, `g` what the operator takes over
+/// `B (j - ρ u_s)`, with `j` and `ρ` before the collision, and `r` from the solid's centre to the cell. Lattice units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Grip {
+    /// `J = Σ b j`
+    pub impulse: Vec3,
+    /// `L = Σ r × b j`
+    pub moment: Vec3,
+    /// `m = Σ b ρ`
+    pub mass: f64,
+    /// `S = Σ b ρ r`
+    pub mass_arm: Vec3,
+    /// `Θ = Σ b ρ (r² I - r rᵀ)`
+    pub inertia: Matrix3<f64>,
+    /// `Σ B_s`
+    pub displaced: f64,
 }

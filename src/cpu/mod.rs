@@ -9,6 +9,7 @@
 //! | `faces/` | the populations that enter through the faces |
 //! | `coverage.rs`, `fields.rs` | what solids cover, run by run |
 //! | `rigid.rs`, `received.rs` | how they move, and what they receive |
+//! | `grips.rs` | how free solids hold the fluid before a collision |
 //! | `observe.rs` | density and momentum of cells, and what a guard sees of them |
 //!
 //! Results do not depend on the number of threads or the width of the vectors: a run of cells is always the same rows,
@@ -20,6 +21,7 @@ mod faces;
 mod fields;
 mod fluid;
 mod grid;
+mod grips;
 mod observe;
 mod pass;
 mod received;

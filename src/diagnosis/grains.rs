@@ -16,9 +16,15 @@ const SLOW: f64 = 0.1;
 /// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The cause that they give, if there is evidence of one.
-pub(super) fn cause(grains: &FreeGrains, solids: &[usize], steps: u64) -> Option<Cause> {
-    light_grain(grains, solids).or_else(|| endless_fall(grains, steps))
+/// The cause that they give, if there is evidence of one. With implicit coupling light grains are stable.
+pub(super) fn cause(
+    grains: &FreeGrains,
+    solids: &[usize],
+    steps: u64,
+    is_implicit: bool,
+) -> Option<Cause> {
+    let light = if is_implicit { None } else { light_grain(grains, solids) };
+    light.or_else(|| endless_fall(grains, steps))
 }
 
 /// The lightest of the free grains that are fast (or no longer at a finite speed), if it is too light.

@@ -6,7 +6,7 @@ mod grains;
 
 use std::fmt;
 
-use psmrt_reference::coupling::FreeGrains;
+use psmrt_reference::coupling::{FreeGrains, is_implicit};
 use psmrt_reference::guard::Stopped;
 use psmrt_reference::setup::Setup;
 use thiserror::Error;
@@ -20,7 +20,9 @@ pub fn diagnosed(
     let of_fluid = fluid::cause(&stopped, setup);
     let of_grains = match (of_fluid, grains) {
         (Cause::InitialState, _) | (_, None) => None,
-        (_, Some((grains, solids))) => grains::cause(grains, solids, stopped.step),
+        (_, Some((grains, solids))) => {
+            grains::cause(grains, solids, stopped.step, is_implicit(setup))
+        }
     };
     ExplainedStop { stopped, cause: of_grains.unwrap_or(of_fluid) }
 }

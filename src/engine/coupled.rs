@@ -2,11 +2,14 @@
 //! the count of steps, and where the time goes.
 //!
 //! A step of fluid and grains: the fluid advances with the solids where they are; its loads move the free
-//! grains; the fluid's solids are put where the grains are now.
+//! grains; the fluid's solids are put where the grains are now. Where the operator of the solids asks for it, the
+//! velocities that free grains have in the collision are solved for before it.
 
 use std::cell::RefCell;
 
-use psmrt_reference::coupling::{FreeGrains, Gravity, with_displaced};
+use psmrt_reference::coupling::{
+    FreeGrains, balancing, grips_with_displaced, is_implicit, with_displaced,
+};
 use psmrt_reference::directions::Q;
 use psmrt_reference::drive::Drive;
 use psmrt_reference::grains::setup::GrainError;
@@ -14,7 +17,7 @@ use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::guard::Guard;
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::{Grip, Load, Solid};
 
 use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine, StartError};
 use crate::diagnosis::diagnosed;
@@ -113,6 +116,7 @@ impl Coupled {
             let next_check = (self.steps / interval + 1) * interval;
             let now = if moves { 1 } else { end.min(next_check) - self.steps };
             let is_last = self.steps + now == end;
+            self.put_into_motion_for_collision()?;
             self.fluid.advance(now, is_free || is_last)?;
             self.steps += now;
             if let Some(profile) = &mut self.profile {
@@ -123,6 +127,28 @@ impl Coupled {
             }
         }
         Ok(())
+    }
+
+    /// Gives free grains the velocities of the implicit coupling, if that is what the solids ask for.
+    fn put_into_motion_for_collision(&mut self) -> Result<(), EngineStop> {
+        let Some(Grains { moving, part }) = &self.grains else { return Ok(()) };
+        if !is_implicit(self.fluid.setup()) {
+            return Ok(());
+        }
+        let free = part.solids.iter().zip(&part.grains).filter(|(_, grain)| !grain.held);
+        let free: Vec<usize> = free.map(|(&solid, _)| solid).collect();
+        let grips = self.fluid.grips(&free)?;
+        let mut grips: Vec<Grip> = part.solids.iter().map(|&solid| grips[solid]).collect();
+        if let Some(g) = balancing(self.fluid.setup(), moving.settings()) {
+            grips = grips_with_displaced(grips, g);
+        }
+        let motions = moving.motion_in_collision(&grips);
+        let mut solids = self.solids();
+        for (&number, motion) in part.solids.iter().zip(&motions) {
+            solids[number].velocity = motion.velocity;
+            solids[number].angular_velocity = motion.angular_velocity;
+        }
+        Ok(self.fluid.place_solids(solids)?)
     }
 
     /// Moves the solids after a step, free or as prescribed.
@@ -145,12 +171,12 @@ impl Coupled {
     /// are now.
     fn move_grains(&mut self, solids: &mut [Solid]) -> Result<(), EngineStop> {
         let Some(Grains { moving, part }) = &mut self.grains else { return Ok(()) };
-        let loads = match (moving.settings().gravity, self.fluid.setup().body_force) {
-            (Some(Gravity::Balanced { .. }), Some(g)) => {
+        let loads = match balancing(self.fluid.setup(), moving.settings()) {
+            Some(g) => {
                 let (loads, displaced) = self.fluid.loads_with_displaced()?;
                 with_displaced(&loads, &displaced, g)
             }
-            _ => self.fluid.loads()?,
+            None => self.fluid.loads()?,
         };
         let loads: Vec<Load> = part.solids.iter().map(|&solid| loads[solid]).collect();
         let since = self.profile.is_some().then(Beginning::now);

@@ -6,7 +6,7 @@ use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::Setup;
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::{Grip, Load, Solid};
 
 use super::{Block, BoxMeans, CellState, DeviceError, EngineName, FluidEngine, Start, StartError};
 use crate::cpu::Fluid;
@@ -86,6 +86,15 @@ impl<T: Real> FluidEngine for CpuEngine<T> {
 
     fn displaced(&self) -> Result<Vec<f64>, DeviceError> {
         Ok(self.fluid.displaced())
+    }
+
+    fn grips(&mut self, wanted: &[usize]) -> Result<Vec<Grip>, DeviceError> {
+        let since = self.times.is_some().then(Beginning::now);
+        let grips = self.fluid.grips(wanted);
+        if let (Some(times), Some(since)) = (&mut self.times, since) {
+            times.fluid.add(since);
+        }
+        Ok(grips)
     }
 
     fn means(&self) -> Result<BoxMeans, DeviceError> {

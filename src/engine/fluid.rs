@@ -10,7 +10,7 @@ use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::{Grip, Load, Solid};
 
 use super::{Block, DeviceError, StartError};
 use crate::machine::Spent;
@@ -84,6 +84,11 @@ pub trait FluidEngine: fmt::Debug + Send {
     fn loads_with_displaced(&self) -> Result<(Vec<Load>, Vec<f64>), DeviceError> {
         Ok((self.loads()?, self.displaced()?))
     }
+
+    /// How each solid holds the fluid before its next collision, for the operators that ask for it
+    /// (`SolidOperator::asks_for_implicit_coupling`); of solids that are not `wanted` nothing need be right. It says the
+    /// same however often it is asked.
+    fn grips(&mut self, wanted: &[usize]) -> Result<Vec<Grip>, DeviceError>;
 
     /// Means over the domain.
     fn means(&self) -> Result<BoxMeans, DeviceError>;

@@ -24,8 +24,14 @@ pub fn save(out: &mut dyn Write, state: &GrainState, last: &[LastStep]) -> io::R
     for ((grain, load), last) in state.grains.iter().zip(&state.contact_loads).zip(last) {
         let vectors =
             [&grain.position, &grain.velocity, &grain.angular_velocity, &load.force, &load.torque];
-        let before = [&last.velocity, &last.angular_velocity, &last.load.force, &last.load.torque];
-        vectors.into_iter().chain(before).try_for_each(|vector| put_vector(out, vector))?;
+        let before = [&last.velocity, &last.angular_velocity];
+        let acted = [&last.load, &last.outside, &last.contacts];
+        let acted = acted.into_iter().flat_map(|load| [&load.force, &load.torque]);
+        vectors
+            .into_iter()
+            .chain(before)
+            .chain(acted)
+            .try_for_each(|vector| put_vector(out, vector))?;
         grain.orientation.coords.iter().try_for_each(|&value| put_real(out, value))?;
     }
     put_whole(out, state.planes.len() as u64)?;
@@ -62,6 +68,8 @@ pub fn load(from: &mut dyn Read, part: &FreePart) -> io::Result<(GrainState, Vec
             velocity: before,
             angular_velocity: spin_before,
             load: load_of(from)?,
+            outside: load_of(from)?,
+            contacts: load_of(from)?,
         });
         let [i, j, k, w] = [real(from)?, real(from)?, real(from)?, real(from)?];
         // Its length was 1 to round-off; normalising it anew would change the last bits.

@@ -23,6 +23,7 @@ mod wgpu;
 use std::error::Error;
 use std::sync::Arc;
 
+use psmrt_reference::coupling::CouplingError;
 use psmrt_reference::drive::DriveError;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::setup::SetupError;
@@ -51,6 +52,14 @@ impl DeviceError {
     }
 }
 
+/// Free grains that are coupled implicitly, on an engine that cannot say how they hold the fluid.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error(
+    "engine wgpu cannot move free grains with solid.operator = \"full_bounce_back\", which asks for their velocity before \
+     the collision: take engine.kind = \"cpu\", or solid.operator = \"bounce_back\""
+)]
+pub struct NoImplicitCoupling;
+
 /// What an engine cannot take: a scene to start from, or a drive.
 #[derive(Debug, Error)]
 pub enum StartError {
@@ -72,6 +81,12 @@ pub enum StartError {
         /// How many solids there are.
         solids: usize,
     },
+    /// Free grains that the engine cannot couple implicitly.
+    #[error(transparent)]
+    NoImplicitCoupling(#[from] NoImplicitCoupling),
+    /// Averaged loads of free grains that are coupled implicitly.
+    #[error(transparent)]
+    Coupling(#[from] CouplingError),
     /// The drive.
     #[error(transparent)]
     Drive(#[from] DriveError),

@@ -3,14 +3,15 @@
 use std::collections::HashSet;
 use std::sync::Arc;
 
-use psmrt_reference::coupling::FreeGrains;
+use psmrt_reference::coupling::{CouplingError, FreeGrains, is_implicit};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::Solid;
 
 use super::coupled::{Coupled, Grains};
 use super::{
-    CpuEngine, DeviceError, EngineName, FluidEngine, KernelEngine, ReferenceEngine, StartError,
+    CpuEngine, DeviceError, EngineName, FluidEngine, KernelEngine, NoImplicitCoupling,
+    ReferenceEngine, StartError,
 };
 use crate::kernel::Gpu;
 use crate::scene::{FreePart, Scene};
@@ -63,6 +64,10 @@ pub fn open(
     profiled: bool,
 ) -> Result<Coupled, StartError> {
     let velocity = scene.initial_velocity;
+    if let Some(part) = &scene.free {
+        // Before a device is opened in vain.
+        can_couple(name, &scene.setup, part)?;
+    }
     let gpu = if name.needs_device() { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
     let state = |_| (1.0, velocity);
     let mut engine = starting_from(name, &scene.setup, scene.free.as_ref(), gpu.as_ref(), state)?;
@@ -92,6 +97,17 @@ fn place_grains(
     Ok(())
 }
 
+/// Errors unless the engine `name` can couple the grains as the operator of the solids asks.
+fn can_couple(name: EngineName, setup: &Setup, part: &FreePart) -> Result<(), StartError> {
+    if !is_implicit(setup) {
+        return Ok(());
+    }
+    if !name.couples_implicitly() {
+        return Err(NoImplicitCoupling.into());
+    }
+    if part.settings.average_loads { Err(CouplingError::Averaged.into()) } else { Ok(()) }
+}
+
 /// A fluid whose density and velocity at each cell centre are `state(centre)`; `free` says how the grains
 /// move, if some are free, and which of the solids they are. `gpu` as for [`open`], but any adapter will do. Errors if the
 /// engine cannot take it.
@@ -106,6 +122,7 @@ pub fn starting_from(
     let mut setup = setup.clone();
     let grains = match free {
         Some(part) => {
+            can_couple(name, &setup, part)?;
             let moving = part.free_grains(&setup.domain)?;
             let solids = setup.solid_phase.as_mut().map(|phase| &mut phase.solids);
             place_grains(part, &moving, solids.unwrap_or(&mut Vec::new()))?;

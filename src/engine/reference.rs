@@ -2,13 +2,14 @@
 
 use std::io::{self, Read, Write};
 
+use psmrt_reference::coupling;
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::drive::Drive;
 use psmrt_reference::forcing::forced_velocity;
 use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3, density, momentum};
 use psmrt_reference::setup::{Setup, SetupError};
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::{Grip, Load, Solid};
 use psmrt_reference::solver::{Memory, Solver};
 
 use super::bytes::{put_real, real};
@@ -95,6 +96,10 @@ impl FluidEngine for ReferenceEngine {
 
     fn displaced(&self) -> Result<Vec<f64>, DeviceError> {
         Ok(self.solver.displaced())
+    }
+
+    fn grips(&mut self, _: &[usize]) -> Result<Vec<Grip>, DeviceError> {
+        Ok(coupling::grips(&self.solver))
     }
 
     fn means(&self) -> Result<BoxMeans, DeviceError> {

@@ -7,10 +7,12 @@ use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::{Grip, Load, Solid};
 
 use super::bytes::{put_whole, whole};
-use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, Start, StartError};
+use super::{
+    Block, BoxMeans, CellState, DeviceError, FluidEngine, NoImplicitCoupling, Start, StartError,
+};
 use crate::kernel::{Gpu, Kernel, KernelError, KernelTimes, Summary};
 use crate::machine::Spent;
 
@@ -79,6 +81,10 @@ impl FluidEngine for KernelEngine {
 
     fn loads_with_displaced(&self) -> Result<(Vec<Load>, Vec<f64>), DeviceError> {
         Ok(self.kernel.loads_with_displaced()?)
+    }
+
+    fn grips(&mut self, _: &[usize]) -> Result<Vec<Grip>, DeviceError> {
+        Err(DeviceError::new(NoImplicitCoupling))
     }
 
     fn means(&self) -> Result<BoxMeans, DeviceError> {

@@ -90,7 +90,9 @@ pub enum GravityForm {
 /// oscillates with growing amplitude until the run stops. `lagged` is the default because a released sphere then
 /// accelerates as the exact solution does, within 2.5 % of its terminal velocity; with `kept` it is too slow by more
 /// than 1.5 times that (tests/oracle/coupling.rs). With `lagged` and averaged forces the angular velocity of a neutrally
-/// buoyant grain oscillates.
+/// buoyant grain oscillates. All of this is for `solid.operator` `bounce_back` and `superposition`, under which grains collide
+/// with the velocity that they have come with. With `full_bounce_back` it is solved for before the collision, which is
+/// stable for lighter grains too (tests/oracle/implicit_coupling.rs).
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingSection {
@@ -99,7 +101,7 @@ pub struct CouplingSection {
     #[serde(default)]
     pub internal_fluid: InternalFluidName,
     /// Whether the mean hydrodynamic force and torque of the last two steps acts on a grain, instead of those of the
-    /// last; `false` where absent.
+    /// last; `false` where absent. Not with `solid.operator = "full_bounce_back"`.
     #[serde(default)]
     pub average_loads: bool,
 }

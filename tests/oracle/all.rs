@@ -30,6 +30,7 @@ mod grains_rolling;
 mod grains_system;
 mod grains_values;
 mod guard;
+mod implicit_coupling;
 mod leakage;
 mod limits;
 mod moments;

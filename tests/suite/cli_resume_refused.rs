@@ -86,7 +86,7 @@ fn a_checkpoint_of_another_format_is_refused() {
     let out = killed(&folder, &write(&folder, ENDLESS, true), "run");
     let newest = checkpoints(&out).pop().unwrap();
     let mut old = fs::read(&newest).unwrap();
-    old[..8].copy_from_slice(b"PSMRTCK3");
+    old[..8].copy_from_slice(b"PSMRTCK4");
     fs::write(&newest, old).unwrap();
     let said = refused(&out, &[]);
     assert!(said.contains("another version of psmrt"), "{said}");

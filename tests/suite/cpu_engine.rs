@@ -2,6 +2,7 @@
 
 use psmrt::engine::{Block, CpuEngine, FluidEngine, Start};
 use psmrt::lanes::Real;
+use psmrt_reference::coupling::grips;
 use psmrt_reference::directions::Q;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::{Populations, Vec3};
@@ -74,6 +75,49 @@ fn bits(engine: &dyn FluidEngine) -> Vec<u8> {
         values.for_each(|value| bytes.extend(value.to_le_bytes()));
     }
     bytes
+}
+
+#[test]
+fn grips_agree_with_the_oracle_in_any_vectors_and_asking_for_them_changes_nothing() {
+    let mut budget = Budget::oracle(134_000);
+    for (name, mut setup) in scenes() {
+        let Some(phase) = &mut setup.solid_phase else { continue };
+        phase.operator = SolidOperator::FullBounceBack;
+        let mut oracle = Solver::starting_from(setup.clone(), state).unwrap();
+        let mut asked = CpuEngine::<f64>::start(setup.clone(), &from(&state));
+        let mut left_alone = CpuEngine::<f64>::start(setup.clone(), &from(&state));
+        let mut scalar = CpuEngine::<f64>::start(setup.clone(), &from(&state));
+        scalar.fluid_mut().do_without_vectors();
+        let wanted = [0, 1, 2, 3];
+        for _ in 0..3 {
+            let found = asked.grips(&wanted).unwrap();
+            assert_eq!(found, asked.grips(&wanted).unwrap(), "{name}: asked again");
+            assert_eq!(found, scalar.grips(&wanted).unwrap(), "{name}: cell by cell");
+            for (number, (found, expected)) in found.iter().zip(grips(&oracle)).enumerate() {
+                // Sums of up to 2 · 1,000 terms, the moments with arms of up to 6 cells once or twice, of densities near 1
+                // and weights that are a few 1e-14 off (below).
+                let off = [
+                    (found.impulse - expected.impulse).norm(),
+                    (found.moment - expected.moment).norm() / 6.0,
+                    (found.mass - expected.mass).abs(),
+                    (found.mass_arm - expected.mass_arm).norm() / 6.0,
+                    (found.inertia - expected.inertia).norm() / 36.0,
+                    (found.displaced - expected.displaced).abs(),
+                ];
+                let off = off.into_iter().fold(0.0, f64::max);
+                assert!(
+                    off < 1e-10,
+                    "{name}, solid {number}: {found:?}, the oracle's {expected:?}"
+                );
+            }
+            budget.spend(setup.domain.cell_count() as u64);
+            oracle.step().unwrap();
+            step(&mut asked);
+            step(&mut left_alone);
+            step(&mut scalar);
+            assert!(bits(&asked) == bits(&left_alone), "{name}: asking has left a trace");
+        }
+    }
 }
 
 #[test]

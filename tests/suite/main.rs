@@ -37,6 +37,7 @@ mod diagnosis;
 mod drive;
 mod exact_text;
 mod extremes;
+mod implicit_coupling;
 mod kernel_coverage;
 mod packing;
 mod packing_places;

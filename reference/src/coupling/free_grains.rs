@@ -9,6 +9,8 @@ use crate::grains::system::{GrainState, GrainSystem};
 use crate::lattice::Vec3;
 use crate::solids::{Load, Shape, Solid};
 
+use super::last_step::LastStep;
+
 /// Fastest grain, cells per time step: what the guard of the fluid allows the fluid.
 const FASTEST: f64 = 0.5;
 
@@ -86,17 +88,6 @@ impl Default for CouplingSettings {
     }
 }
 
-/// Velocity and spin of a grain, and the load on it, a step ago.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LastStep {
-    /// Velocity before the last step.
-    pub velocity: Vec3,
-    /// Spin before the last step.
-    pub angular_velocity: Vec3,
-    /// Load of the fluid during the last step.
-    pub load: Load,
-}
-
 /// Grains that move under the loads of a fluid. Lattice units throughout; grain number `i` is the
 /// fluid's solid number `i`.
 #[derive(Clone, Debug)]
@@ -138,14 +129,16 @@ impl FreeGrains {
     /// Returns the number of sub-steps. Errors if the motion breaks down or a contact does not hold.
     pub fn step(&mut self, loads: &[Load]) -> Result<u32, GrainError> {
         let outside = self.outside_loads(loads);
-        for ((last, grain), load) in self.last.iter_mut().zip(self.grains.grains()).zip(loads) {
-            *last = LastStep {
-                velocity: grain.velocity,
-                angular_velocity: grain.angular_velocity,
-                load: *load,
-            };
+        let acting = loads.iter().zip(&outside);
+        for ((last, grain), (load, outside)) in
+            self.last.iter_mut().zip(self.grains.grains()).zip(acting)
+        {
+            *last = LastStep::beginning(grain, load, outside);
         }
         let substeps = self.grains.step(1.0, &outside)?;
+        for (last, grain) in self.last.iter_mut().zip(self.grains.grains()) {
+            last.end(grain);
+        }
         if let Some(sunk) = hold::deepest(&self.grains) {
             return Err(sunk.into());
         }
@@ -280,17 +273,6 @@ pub(super) fn mirrors_through(domain: &Domain, grain: &Grain, axis: usize) -> bo
     let planes = [0.0, domain.cells()[axis] as f64];
     let faces = domain.faces().axis(axis);
     (0..2).any(|side| faces[side] == Face::FreeSlip && grain.position[axis] == planes[side])
-}
-
-impl LastStep {
-    /// Before the first step: as if the grain had always moved as it does, with no load.
-    fn at_rest(grain: &Grain) -> Self {
-        LastStep {
-            velocity: grain.velocity,
-            angular_velocity: grain.angular_velocity,
-            load: Load::default(),
-        }
-    }
 }
 
 /// A grain as a solid of the fluid.

@@ -7,6 +7,10 @@
 //!    constant (`grains/system.rs`);
 //! 4. the solids of the fluid are put where the grains are now.
 //!
+//! That is explicit: the grain goes through the collision of 1 with the velocity that it has come with. Under full
+//! bounce-back it would be unstable, and the velocity for the collision is solved for before it (`implicit.rs`); all
+//! else stays as it is.
+//!
 //! **The fluid inside a grain.** The PS term makes the fluid that a grain covers follow it. The inertia of that fluid
 //! (the internal mass) is in `F`, though a real grain has none of it: `F` is too small by `m_f dv/dt`, with `m_f = rho_f V`.
 //! [`InternalFluid::Lagged`] adds back `m_f` times the last step's change of velocity (and so for the
@@ -32,6 +36,8 @@
 
 mod balance;
 mod free_grains;
+mod implicit;
+mod last_step;
 
 use crate::grains::grain::Grain;
 use crate::grains::plane::Plane;
@@ -46,7 +52,9 @@ use std::borrow::Cow;
 use thiserror::Error;
 
 pub use balance::{balancing_force, with_displaced};
-pub use free_grains::{CouplingSettings, FreeGrains, Gravity, InternalFluid, LastStep};
+pub use free_grains::{CouplingSettings, FreeGrains, Gravity, InternalFluid};
+pub use implicit::{Motion, grips, grips_with_displaced, load_by_grip};
+pub use last_step::LastStep;
 
 /// A coupled set-up that cannot be run.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -60,6 +68,11 @@ pub enum CouplingError {
     /// The fluid's set-up has no solid phase or has solids of its own.
     #[error("the grains become the fluid's solids: give its set-up a solid phase with no solids")]
     SolidsGiven,
+    /// Averaged loads where the coupling is implicit.
+    #[error(
+        "averaged loads are for explicit coupling, and full bounce-back couples free grains implicitly"
+    )]
+    Averaged,
 }
 
 /// A coupled run that was stopped.
@@ -93,6 +106,9 @@ impl CoupledSolver {
         planes: Vec<Plane>,
         settings: CouplingSettings,
     ) -> Result<Self, CouplingError> {
+        if is_implicit(&fluid) && settings.average_loads {
+            return Err(CouplingError::Averaged);
+        }
         let grains = FreeGrains::new(&fluid.domain, grain_setup, grains, planes, settings)?;
         let fluid = Solver::starting_with_free_solids(with_grains(fluid, &grains)?, state)?;
         Ok(CoupledSolver { fluid, grains })
@@ -114,6 +130,9 @@ impl CoupledSolver {
 
     /// One step of fluid and grains. Errors when either is broken.
     pub fn step(&mut self) -> Result<(), CoupledStop> {
+        if is_implicit(self.fluid.setup()) {
+            self.put_into_motion_for_collision();
+        }
         self.fluid.advance_fluid()?;
         self.grains.step(&loads(&self.fluid, self.grains.settings()))?;
         let solids = self.grains.solids();
@@ -123,6 +142,19 @@ impl CoupledSolver {
             solid.angular_velocity = solids[number].angular_velocity;
         });
         Ok(())
+    }
+
+    /// Gives the solids the velocities of the implicit coupling.
+    fn put_into_motion_for_collision(&mut self) {
+        let mut grips = grips(&self.fluid);
+        if let Some(g) = balancing(self.fluid.setup(), self.grains.settings()) {
+            grips = grips_with_displaced(grips, g);
+        }
+        let motions = self.grains.motion_in_collision(&grips);
+        self.fluid.place_solids(|number, solid| {
+            solid.velocity = motions[number].velocity;
+            solid.angular_velocity = motions[number].angular_velocity;
+        });
     }
 
     /// `count` steps.
@@ -183,12 +215,20 @@ impl CoupledSolver {
 
 /// The fluid's loads of the last step, with what a balancing body force lacks in the grains' cells.
 fn loads<'a>(fluid: &'a Solver, settings: &CouplingSettings) -> Cow<'a, [Load]> {
-    match (settings.gravity, fluid.setup().body_force) {
-        (Some(Gravity::Balanced { .. }), Some(g)) => {
-            with_displaced(fluid.loads(), &fluid.displaced(), g).into()
-        }
-        _ => fluid.loads().into(),
+    match balancing(fluid.setup(), settings) {
+        Some(g) => with_displaced(fluid.loads(), &fluid.displaced(), g).into(),
+        None => fluid.loads().into(),
     }
+}
+
+/// The body force of which grains get what their cells lack, if there is one.
+pub fn balancing(setup: &Setup, settings: &CouplingSettings) -> Option<Vec3> {
+    setup.body_force.filter(|_| matches!(settings.gravity, Some(Gravity::Balanced { .. })))
+}
+
+/// Whether the solids of a set-up ask for the implicit coupling of those that are free.
+pub fn is_implicit(setup: &Setup) -> bool {
+    setup.solid_phase.as_ref().is_some_and(|phase| phase.operator.asks_for_implicit_coupling())
 }
 
 /// The fluid's set-up with the grains as its solids.

@@ -39,6 +39,15 @@ impl<V: Lanes> Collider<V> {
         (change.added_to(f), [cell.rho * share, jx, jy, jz, share])
     }
 
+    /// What loads are made of in cells of which solids fill `epsilon` in all, as [`Self::saturated`] gives it.
+    #[inline(always)]
+    pub(in crate::cpu) fn shared(&self, f: &[V; Q], epsilon: V) -> [V; 5] {
+        let [excess, jx, jy, jz] = Self::sums(f);
+        let share = self.weight_of(epsilon) * self.one.over(epsilon.max(self.tiny));
+        let [jx, jy, jz] = scaled([jx, jy, jz], share);
+        [(excess + self.one) * share, jx, jy, jz, share]
+    }
+
     /// The fluid's part: the change of the moments in `f* - f = (1 - B) Ω + B Λ` but for that by `Λ`, of which the Ω in it
     /// is taken in.
     #[inline(always)]

@@ -1,5 +1,6 @@
 //! The fluid of a domain: the order of a step.
 
+mod gripped;
 mod observed;
 mod saved;
 

@@ -26,10 +26,11 @@ pub(super) fn solid_phase(
     let operator = match section.operator {
         OperatorName::BounceBack => SolidOperator::NonEquilibriumBounceBack,
         OperatorName::Superposition => SolidOperator::Superposition,
-        OperatorName::FullBounceBack | OperatorName::GradedViscosity if has_free => {
+        OperatorName::GradedViscosity if has_free => {
             let problem = "free grains are unstable with it: what a grain takes of the fluid's momentum in a step is twice \
                            what it holds";
-            let remedy = "take `operator = \"bounce_back\"`, or grains that are fixed or whose motion is prescribed";
+            let remedy = "take `operator = \"full_bounce_back\"` or `\"bounce_back\"`, or grains that are fixed or whose \
+                          motion is prescribed";
             return Err(Trouble::new("solid.operator", problem, remedy));
         }
         OperatorName::FullBounceBack => SolidOperator::FullBounceBack,

@@ -1,6 +1,6 @@
 //! Warnings of grains too light for the fluid inside them.
 
-use psmrt_reference::coupling::InternalFluid;
+use psmrt_reference::coupling::{InternalFluid, is_implicit};
 
 use crate::advice::estimate::warning::{Warning, warning};
 use crate::advice::plan::facts::lightest;
@@ -8,6 +8,10 @@ use crate::advice::stability::limits;
 use crate::scene::Scene;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
+    // What is known of light grains is known of explicit coupling.
+    if is_implicit(&scene.setup) {
+        return Vec::new();
+    }
     let Some((ratio, inside)) = lightest(scene) else { return Vec::new() };
     let tau = scene.setup.collision.tau();
     let limit = limits::lightest(inside, tau);

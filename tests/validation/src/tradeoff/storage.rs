@@ -10,7 +10,7 @@ use psmrt_reference::drive::Drive;
 use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::{Setup, SetupError};
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::{Grip, Load, Solid};
 
 use crate::tradeoff::parameters::Storage;
 use psmrt::engine::{
@@ -101,6 +101,10 @@ impl FluidEngine for RoundedEngine {
 
     fn displaced(&self) -> Result<Vec<f64>, DeviceError> {
         self.inner.displaced()
+    }
+
+    fn grips(&mut self, wanted: &[usize]) -> Result<Vec<Grip>, DeviceError> {
+        self.inner.grips(wanted)
     }
 
     fn means(&self) -> Result<BoxMeans, DeviceError> {
