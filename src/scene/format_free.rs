@@ -101,7 +101,7 @@ pub struct CouplingSection {
     #[serde(default)]
     pub internal_fluid: InternalFluidName,
     /// Whether the mean hydrodynamic force and torque of the last two steps acts on a grain, instead of those of the
-    /// last; `false` where absent. Not with `solid.operator = "full_bounce_back"`.
+    /// last; `false` where absent. Not with the solid operator `full_bounce_back`.
     #[serde(default)]
     pub average_loads: bool,
 }

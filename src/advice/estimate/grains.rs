@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use psmrt_reference::coupling::{Gravity, InternalFluid};
+use psmrt_reference::coupling::{Gravity, InternalFluid, is_implicit};
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::motion::Substeps;
@@ -102,8 +102,14 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
         InternalFluid::Kept => "retained",
     };
     let averaged = if settings.average_loads { ", mean force of two steps" } else { "" };
-    let mut models =
-        vec![format!("free grains: DEM (motion = \"free\"); internal mass {inertia}{averaged}")];
+    let solved = if is_implicit(&scene.setup) {
+        "; their velocity in a collision is solved for before it (solid.operator = \"full_bounce_back\")"
+    } else {
+        ""
+    };
+    let mut models = vec![format!(
+        "free grains: DEM (motion = \"free\"); internal mass {inertia}{averaged}{solved}"
+    )];
     let friction = match law.friction {
         Some(friction) => format!(
             "friction {}, tangential stiffness {:.4} of the normal one",
