@@ -235,7 +235,8 @@ impl Coupled {
         Some(Profile { steps: moving.steps, parts })
     }
 
-    /// Means over the domain.
+    /// Means over the domain. The next collision that the mass flux is taken from is with the velocities that the solids
+    /// have now; implicit coupling gives free grains those of the end of the step, as far as it knows them.
     pub fn box_means(&self) -> BoxMeans {
         let broken =
             BoxMeans { density: f64::NAN, mass_flux: Vec3::repeat(f64::NAN), max_speed: f64::NAN };

@@ -43,7 +43,7 @@ fn falling(settings: CouplingSettings, operator: SolidOperator) -> CoupledSolver
 
 #[test]
 fn going_on_from_a_saved_state_gives_the_bits_of_the_run_that_was_never_stopped() {
-    let mut budget = Budget::oracle(1_300_000);
+    let mut budget = Budget::oracle(1_100_000);
     let gravity = Some(Gravity::Reduced { acceleration: Vec3::new(0.0, 0.0, -4e-3) });
     let explicit = SolidOperator::NonEquilibriumBounceBack;
     for (operator, internal_fluid, both) in [

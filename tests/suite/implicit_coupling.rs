@@ -143,7 +143,7 @@ fn the_cpu_engine_moves_grains_as_the_oracle_does_to_round_off() {
 
 #[test]
 fn engines_go_on_bit_for_bit_from_what_they_saved_during_contacts() {
-    let mut budget = Budget::oracle(462_000);
+    let mut budget = Budget::oracle(308_000);
     let scene = scene(CLOSED);
     let bytes = |engine: &Coupled| {
         let mut bytes = Vec::new();
@@ -154,16 +154,16 @@ fn engines_go_on_bit_for_bit_from_what_they_saved_during_contacts() {
         let new = || open(name, &scene, None, false).unwrap();
         let (mut whole, mut first, mut second) = (new(), new(), new());
         if name == EngineName::Reference {
-            budget.spend(2 * 60 * scene.setup.domain.cell_count() as u64);
+            budget.spend(2 * 40 * scene.setup.domain.cell_count() as u64);
         }
-        whole.step(60).unwrap();
+        whole.step(40).unwrap();
         first.step(16).unwrap();
         let state = first.free_grains().unwrap().state();
         assert!(!state.pair_contacts.is_empty(), "no contact");
         let saved = bytes(&first);
         second.load(&mut saved.as_slice()).unwrap();
         assert!(saved == bytes(&second), "what is read is what was written");
-        second.step(44).unwrap();
+        second.step(24).unwrap();
         assert!(bytes(&whole) == bytes(&second), "{name:?}");
     }
 }
