@@ -92,7 +92,7 @@ pub enum GravityForm {
 /// than 1.5 times that (tests/oracle/coupling.rs). With `lagged` and averaged forces the angular velocity of a neutrally
 /// buoyant grain oscillates. All of this is for `solid.operator` `bounce_back` and `superposition`, under which grains collide
 /// with the velocity that they have come with. With `full_bounce_back` it is solved for before the collision, which is
-/// stable for lighter grains too (tests/oracle/implicit_coupling.rs).
+/// stable for lighter grains too, down to a tenth of the fluid's density (tests/oracle/implicit_coupling.rs).
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CouplingSection {
