@@ -8,6 +8,7 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 use rayon::prelude::*;
 
+use super::prefetch::ask_first;
 use crate::ball::{cells_about, rows_of_fractions};
 use crate::lanes::Real;
 
@@ -154,23 +155,17 @@ impl<T: Real> Coverage<T> {
         &self.parts[self.begins[run]..self.begins[run + 1]]
     }
 
-    /// Reads a little of what each part of a run covers, so that the memory of all is fetched at once: one after the other,
-    /// each would be waited for.
+    /// Asks for the memory of what each part of a run covers, of all at once: one after the other, each would be waited
+    /// for.
     pub(super) fn fetch(&self, run: usize) {
-        let mut sum = 0;
         for part in self.parts(run) {
             let image = &self.images[part.solid][part.image];
-            let (first, last) = (part.spans.start, part.spans.end - 1);
-            let [first, last] = [first, last].map(|span| image.spans[span]);
-            sum += first.count + last.count;
-            let mut at = first.start as usize;
-            let end = (last.start + last.count) as usize;
-            while at < end {
-                sum += u32::from(image.epsilons[at] != T::default());
-                at += 16;
-            }
+            let spans = &image.spans[part.spans.clone()];
+            spans.chunks(2).for_each(ask_first);
+            let (Some(first), Some(last)) = (spans.first(), spans.last()) else { continue };
+            let epsilons = first.start as usize..(last.start + last.count) as usize;
+            image.epsilons[epsilons].chunks(16).for_each(ask_first);
         }
-        std::hint::black_box(sum);
     }
 
     /// The cells of a part, row by row, in the run whose first cell is `first`.

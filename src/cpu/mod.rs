@@ -6,6 +6,7 @@
 //! | `grid.rs` | the populations in memory, updated in place |
 //! | `collision/` | the collision of a vector of cells |
 //! | `pass.rs` | one pass over a run of cells |
+//! | `prefetch.rs` | memory that is asked for before it is needed |
 //! | `faces/` | the populations that enter through the faces |
 //! | `coverage.rs`, `fields.rs` | what solids cover, run by run |
 //! | `rigid.rs`, `received.rs` | how they move, and what they receive |
@@ -24,6 +25,7 @@ mod grid;
 mod grips;
 mod observe;
 mod pass;
+mod prefetch;
 mod received;
 mod rigid;
 

@@ -5,6 +5,7 @@ use pulp::{Simd, WithSimd};
 
 use super::collision::{Collider, Rules};
 use super::fields::{Fields, Seen};
+use super::prefetch::ask_ahead;
 use crate::lanes::{Lanes, Real};
 
 /// The vectors of numbers of type `T` on a processor with the instructions `S`.
@@ -31,9 +32,16 @@ impl<T: Real> WithSimd for Pass<'_, '_, T> {
             (bodies[a], tails[a]) = LanesOf::<T, S>::split_mut(values);
         }
         let (vectors, rest) = (bodies[0].len(), tails[0].len());
+        // All are as long; said so that no index need be checked against each.
+        for body in &mut bodies {
+            *body = &mut std::mem::take(body)[..vectors];
+        }
         match self.solids {
             None => {
                 for i in 0..vectors {
+                    for body in &bodies {
+                        ask_ahead(body, i);
+                    }
                     let f: [LanesOf<T, S>; Q] =
                         std::array::from_fn(|a| Lanes::load(token, bodies[a][i]));
                     let post = collider.fluid(&f);
@@ -68,6 +76,9 @@ impl<T: Real> WithSimd for Pass<'_, '_, T> {
                 for i in 0..vectors {
                     if leaves_filled && fields.is_filled(i * lanes) {
                         continue;
+                    }
+                    for body in &bodies {
+                        ask_ahead(body, i);
                     }
                     let f: [LanesOf<T, S>; Q] =
                         std::array::from_fn(|a| Lanes::load(token, bodies[a][i]));

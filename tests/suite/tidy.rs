@@ -305,3 +305,23 @@ fn readme_is_short_and_shows_the_scene_of_its_picture() {
         "the README shows another scene than docs/grains_in_water.toml"
     );
 }
+
+#[test]
+fn nothing_is_unsafe_but_asking_for_memory_ahead() {
+    let mut seen = 0;
+    for path in
+        ["src", "reference", "report", "tests"].into_iter().flat_map(|room| files(room, &[".rs"]))
+    {
+        // This file, and the one that may.
+        if path.ends_with("tests/suite/tidy.rs") || path.ends_with("src/cpu/prefetch.rs") {
+            seen += 1;
+            continue;
+        }
+        let word =
+            text(&path).split(|c: char| !(c.is_alphanumeric() || c == '_')).any(|w| w == "unsafe");
+        assert!(!word, "{} has unsafe code", path.display());
+    }
+    assert_eq!(seen, 2, "the file that may has moved");
+    let blocks = text(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src/cpu/prefetch.rs"));
+    assert_eq!(blocks.matches("unsafe {").count(), 1, "src/cpu/prefetch.rs holds one block");
+}

@@ -5,7 +5,7 @@ use psmrt_reference::coverage::CoverageRule;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::figures::title;
-use super::sweep::OPERATORS;
+use super::sweep::{OF_FREE_GRAINS, OPERATORS};
 use crate::tradeoff::parameters::Flow;
 use crate::tradeoff::row::Row;
 
@@ -94,6 +94,7 @@ pub fn figures(rows: &[Row]) -> Vec<Figure> {
         let exact = Series::new("exact", Style::Reference, vec![(0.05, 0.0), (1.0, 0.0)]);
         figures.push(figure.with(exact));
     }
+    figures.push(settling(rows));
     for (flow, geometry, _) in &DRAWN[1..] {
         let title = title(&(*flow, (*geometry).to_owned()));
         let mut figure = Figure::new(
@@ -121,4 +122,25 @@ pub fn figures(rows: &[Row]) -> Vec<Figure> {
         figures.push(figure.note("12 to 32 cells along the edge; where the error of SC3 passes through zero two errors cancel"));
     }
     figures
+}
+
+/// A free grain in a shaft.
+fn settling(rows: &[Row]) -> Figure {
+    let mut figure = Figure::new(
+        "A free grain settles in a square shaft of four diameters: error of its drag, by operator",
+        Axis::log("relaxation time less 1/2"),
+        Axis::linear("error of the drag"),
+    )
+    .size(800, 500);
+    for (cells, marker) in [4, 6, 8].into_iter().zip(MARKERS) {
+        for operator in OF_FREE_GRAINS {
+            let points = against_tau(rows, (Flow::Settling, "0.25", cells), operator);
+            let points = points.into_iter().map(|(tau, error)| (tau - 0.5, error)).collect();
+            let number = OPERATORS.iter().position(|one| *one == operator).unwrap_or(0);
+            let label = format!("{cells} cells per diameter, {}", NAMES[number]);
+            let style = Style::LinePoints(Some(marker));
+            figure = figure.with(Series::new(label, style, points).with_colour(number));
+        }
+    }
+    figure.with(Series::new("exact", Style::Reference, vec![(0.05, 0.0), (1.0, 0.0)]))
 }

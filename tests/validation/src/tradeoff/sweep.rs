@@ -32,7 +32,10 @@ pub const OPERATORS: [(&str, &str); 4] = [
     ("graded_viscosity", "graded"),
 ];
 
-/// The runs that compare operators in fixed beds, on the CPU engine in double precision.
+/// The operators that a free grain may have, which settles in a shaft.
+pub const OF_FREE_GRAINS: [(&str, &str); 2] = [OPERATORS[0], OPERATORS[2]];
+
+/// The runs that compare operators, in fixed beds and with a free grain, on the CPU engine in double precision.
 pub fn operators() -> Vec<Parameters> {
     let beds = [
         (Flow::Sc, "0.064"),
@@ -44,27 +47,31 @@ pub fn operators() -> Vec<Parameters> {
         (Flow::Random, "0.45"),
     ];
     let taus = [0.55, 0.6, 0.8, 1.0, 1.5];
-    let mut runs = Vec::new();
+    let with = |runs: &[Parameters], (operator, weight): (&str, &str)| {
+        changed(runs, |run| {
+            operator.clone_into(&mut run.operator);
+            weight.clone_into(&mut run.weight);
+            "cpu".clone_into(&mut run.engine);
+        })
+    };
+    let settling = grid(Flow::Settling, "0.25", &[4, 6, 8], &taus, &[DHumieres]);
+    let mut runs: Vec<Parameters> =
+        OF_FREE_GRAINS.into_iter().flat_map(|operator| with(&settling, operator)).collect();
     for cells in [12, 16, 24, 32] {
         for (flow, geometry) in beds {
             let of_size = grid(flow, geometry, &[cells], &taus, &[DHumieres]);
             let is_fine = cells == 32
                 && !matches!((flow, geometry), (Flow::Sc, "0.343") | (Flow::Fcc, "0.6"));
             let with_others = grid(flow, geometry, &[cells], &taus, &[Srt, Trt]);
-            for (operator, weight) in OPERATORS {
-                let set = |run: &mut Parameters| {
-                    operator.clone_into(&mut run.operator);
-                    weight.clone_into(&mut run.weight);
-                    "cpu".clone_into(&mut run.engine);
-                };
+            for operator in OPERATORS {
                 if !is_fine {
-                    runs.extend(changed(&of_size, set));
+                    runs.extend(with(&of_size, operator));
                 }
                 if cells == 16 {
-                    runs.extend(changed(&with_others, set));
+                    runs.extend(with(&with_others, operator));
                 }
-                if cells < 32 && operator != "superposition" {
-                    let mut linear = changed(&of_size, set);
+                if cells < 32 && operator.0 != "superposition" {
+                    let mut linear = with(&of_size, operator);
                     linear.iter_mut().for_each(|run| run.coverage = CoverageRule::Linear);
                     runs.extend(linear);
                 }
