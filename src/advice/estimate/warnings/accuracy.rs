@@ -10,6 +10,7 @@ use crate::advice::tradeoff::models::Models;
 use crate::engine::EngineName;
 use crate::scene::{EngineKind, Scene};
 use psmrt_reference::collision::Preset;
+use psmrt_reference::partial_saturation::SolidOperator;
 
 /// A predicted error above this is warned of. Laws of the drag of beds differ by as much from each other, so
 /// that a larger one spoils what one can compare with; and of the Pareto-optimal runs
@@ -83,19 +84,31 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         Err(Outside { nearest: None, .. }) => return Vec::new(),
     };
     let mut remedy = remedy(&outlook);
-    if graded_would_help(scene, &outlook.facts) {
-        remedy += "; with fixed grains `solid.operator = \"graded_viscosity\"` was within 7 % with 8 and more cells per diameter at any \
-                   relaxation time up to 1 (golden/tradeoff/operators.csv)";
-    }
+    remedy += other_operator(scene, &outlook.facts);
     vec![warning(reason, remedy)]
 }
 
-/// Whether the operator of graded viscosity would be more accurate, with nothing else changed.
-fn graded_would_help(scene: &Scene, facts: &Facts) -> bool {
-    let Limit::Grains { cells, .. } = &facts.limit else { return false };
-    let is_covered =
+/// The operator that would be more accurate with nothing else changed, if one is known.
+fn other_operator(scene: &Scene, facts: &Facts) -> &'static str {
+    let Limit::Grains { cells, .. } = &facts.limit else { return "" };
+    let phase = scene.setup.solid_phase.as_ref();
+    let leaks = phase.is_some_and(|phase| phase.operator == SolidOperator::default());
+    let is_known =
         Preset::of(&scene.setup.collision) == Some(Preset::DHumieres) && facts.tau <= 1.0;
-    is_covered && *cells >= ENOUGH_CELLS && scene.free.is_none()
+    if !leaks || !is_known {
+        return "";
+    }
+    match (&scene.free, scene.engine) {
+        (None, _) if *cells >= ENOUGH_CELLS => {
+            "; with fixed grains `solid.operator = \"graded_viscosity\"` was within 7 % with 8 and more cells per diameter \
+             at any relaxation time up to 1 (golden/tradeoff/operators.csv)"
+        }
+        (Some(_), engine) if engine != EngineKind::Wgpu && *cells >= 4.0 => {
+            "; a free grain of 4 to 8 cells settled within 6 % of the exact velocity with `solid.operator = \
+             \"full_bounce_back\"` at any relaxation time up to 1 (golden/tradeoff/operators.csv)"
+        }
+        _ => "",
+    }
 }
 
 /// A prediction in words: the flow, or what a given flow does to the grains.

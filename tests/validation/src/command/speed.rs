@@ -159,19 +159,18 @@ fn measured(
         |error: String| Failure::usage(format!("{} on {}: {error}", work.name, engine.word()));
     let mut fluid = start(engine, gpu, &work.setup).map_err(|error| failed(error.to_string()))?;
     let mut steps = 1;
-    let mut failure = None;
+    // A run that has broken is over at once, however many steps it is asked for.
     let mut run = |steps: u64| {
-        seconds_of(|| failure = failure.take().or(advance(&mut fluid, work, steps).err()))
+        let mut end = Ok(());
+        let seconds = seconds_of(|| end = advance(&mut fluid, work, steps));
+        end.map(|()| seconds).map_err(|error| failed(error.to_string()))
     };
     // Memory is touched, shaders are compiled.
-    run(2);
-    let mut seconds = run(steps);
+    run(2)?;
+    let mut seconds = run(steps)?;
     while seconds < SECONDS {
         steps *= if seconds < 0.25 * SECONDS { 4 } else { 2 };
-        seconds = run(steps);
+        seconds = run(steps)?;
     }
-    match failure {
-        Some(error) => Err(failed(error.to_string())),
-        None => Ok(cells as f64 * steps as f64 / seconds),
-    }
+    Ok(cells as f64 * steps as f64 / seconds)
 }

@@ -90,7 +90,7 @@ pub fn works(side: usize) -> Result<Vec<Work>, DomainError> {
     Ok(vec![
         work("MRT", fluid(mrt), Besides::Nothing),
         work("SRT", fluid(srt), Besides::Nothing),
-        work("MRT, body force", fluid(mrt).with_body_force(velocity), Besides::Nothing),
+        work("MRT, body force", fluid(mrt).with_body_force(1e-4 * velocity), Besides::Nothing),
         work("MRT, lid-driven cavity", Setup::fluid(cavity, mrt), Besides::Nothing),
         work("PS-MRT, fixed bed of 0.6", held.clone(), Besides::Nothing),
         work("PS-MRT, fixed bed of 0.6, graded viscosity", graded, Besides::Nothing),
