@@ -89,6 +89,13 @@ impl<T: Real> Seen<T> {
     pub(super) fn new(cells: usize) -> Self {
         Seen { of: std::array::from_fn(|_| vec![T::default(); cells + EIGHT]) }
     }
+
+    /// Those of eight cells from `at` on.
+    #[inline(always)]
+    pub(super) fn eight(&self, at: usize) -> Option<[&[T; EIGHT]; 5]> {
+        let [a, b, c, d, e] = self.of.each_ref().map(|of| of[at..].first_chunk::<EIGHT>());
+        Some([a?, b?, c?, d?, e?])
+    }
 }
 
 impl<T: Real> Fields<T> {

@@ -120,11 +120,7 @@ impl Sums {
         fractions: &[T; EIGHT],
         arm: &Vec3,
     ) {
-        let [Some(rho), Some(jx), Some(jy), Some(jz), Some(share)] =
-            seen.of.each_ref().map(|of| of[at..].first_chunk::<EIGHT>())
-        else {
-            return;
-        };
+        let Some([rho, jx, jy, jz, share]) = seen.eight(at) else { return };
         for x in 0..EIGHT {
             let epsilon = fractions[x].to_f64();
             let (rx, ry, rz) = (arm.x + x as f64, arm.y, arm.z);

@@ -70,11 +70,7 @@ impl Sums {
         arm: &Vec3,
         along: &Along,
     ) {
-        let [Some(rho), Some(jx), Some(jy), Some(jz), Some(share)] =
-            seen.of.each_ref().map(|of| of[at..].first_chunk::<EIGHT>())
-        else {
-            return;
-        };
+        let Some([rho, jx, jy, jz, share]) = seen.eight(at) else { return };
         let u_s = along.eight();
         for x in 0..EIGHT {
             let (epsilon, rho) = (fractions[x].to_f64(), rho[x].to_f64());

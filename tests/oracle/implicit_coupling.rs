@@ -141,9 +141,8 @@ fn the_same_grain_explicitly_coupled_blows_up() {
     panic!("explicit coupling is stable: the implicit one is not needed");
 }
 
-#[test]
-fn the_load_that_the_grip_foretells_is_that_of_the_collision() {
-    let mut budget = Budget::oracle(10_000);
+/// Two grains that share cells, in a fluid of random populations, which they hold far from evenly.
+fn two_in_a_random_fluid() -> (FreeGrains, Solver) {
     let mut random = Random(7);
     let spheres = [(4.1, 2.6), (8.3, 2.3)].map(|(x, radius)| {
         Grain::sphere(Vec3::new(x, 5.7, 6.2), radius, 1.5)
@@ -156,10 +155,34 @@ fn the_load_that_the_grip_foretells_is_that_of_the_collision() {
     let grain_setup = GrainSetup { sides, ..GrainSetup::new(law(100.0)) };
     let moving =
         FreeGrains::new(&setup.domain, grain_setup, spheres.to_vec(), Vec::new(), settings);
-    let solids = moving.unwrap().solids();
-    let setup = setup.with_solids(SolidPhase { solids: solids.clone(), ..tight() });
+    let moving = moving.unwrap();
+    let setup = setup.with_solids(SolidPhase { solids: moving.solids(), ..tight() });
     let f = (0..1728).map(|_| random.populations()).collect();
-    let mut solver = Solver::from_populations(setup, f).unwrap();
+    (moving, Solver::from_populations(setup, f).unwrap())
+}
+
+#[test]
+fn the_motion_in_a_collision_is_that_which_its_own_load_gives() {
+    let (moving, solver) = two_in_a_random_fluid();
+    let grips = grips(&solver);
+    let motions = moving.motion_in_collision(&grips);
+    for ((grain, grip), motion) in moving.system().grains().iter().zip(&grips).zip(&motions) {
+        assert!(grip.mass_arm.norm() > 1.0, "the grip is even: {grip:?}");
+        // M (U' - v) = F(U', ω') and I (ω' - ω) = T(U', ω'): nothing else acts.
+        let load = load_by_grip(grip, motion);
+        let force = grain.mass * (motion.velocity - grain.velocity) - load.force;
+        let torque =
+            grain.inertia * (motion.angular_velocity - grain.angular_velocity) - load.torque;
+        // Six equations whose terms are of the size of the mass, 100, times velocities of 0.1.
+        assert!(force.norm() + torque.norm() < 1e-11, "left over: {force:?} and {torque:?}");
+    }
+}
+
+#[test]
+fn the_load_that_the_grip_foretells_is_that_of_the_collision() {
+    let mut budget = Budget::oracle(10_000);
+    let (moving, mut solver) = two_in_a_random_fluid();
+    let solids = moving.solids();
     let foretold = grips(&solver);
     let displaced = solver.displaced();
     budget.spend(1728);
