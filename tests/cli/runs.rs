@@ -8,6 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use super::Folder;
+use crate::scenes::water;
 
 /// Cells of the box.
 pub const CELLS: u64 = 8 * 8 * 8;
@@ -15,18 +16,10 @@ pub const CELLS: u64 = 8 * 8 * 8;
 /// Its scene, which ends after `steps` and saves its state every 20 steps, or never.
 pub fn scene(steps: u64, saves: bool) -> String {
     let checkpoint = if saves { "[checkpoint]\nevery_steps = 20\n" } else { "" };
-    format!("{checkpoint}{}", SCENE.replace("STEPS", &steps.to_string()))
+    water([8, 8, 8], 1e-5, &format!("{SECTIONS}{checkpoint}[stop]\nsteps = {steps}\n"))
 }
 
-const SCENE: &str = r#"
-[domain]
-cells = [8, 8, 8]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+const SECTIONS: &str = r#"
 [body_force]
 acceleration = [1.0, 0.0, 0.0]
 [[grains]]
@@ -44,8 +37,6 @@ every_steps = 500
 [[records]]
 name = "loads"
 kind = "loads"
-[stop]
-steps = STEPS
 "#;
 
 const LIST: &str = "x (m),y (m),z (m),diameter (m)\n4e-5,4e-5,4e-5,4e-5\n";

@@ -7,6 +7,7 @@ use std::sync::LazyLock;
 use crate::cli::{Folder, psmrt, stdout};
 use crate::common::{Budget, golden_rows};
 use crate::mixed;
+use crate::scenes::{FLOOR_AND_LID, changed, free_sphere, saved, scene, water};
 use crate::trials::{self, Claim, EngineClaim};
 use psmrt::diagnosis::ExplainedStop;
 use psmrt::engine::{Block, CellState, Coupled, EngineName, EngineStop, open};
@@ -15,65 +16,26 @@ use psmrt_reference::drive::FaceValue;
 use psmrt_reference::solids::Shape;
 
 /// Three free grains, one of them spinning, in a box with walls; far enough apart not to touch.
-const GRAINS: &str = r#"
-[domain]
-cells = [20, 16, 18]
-dx = 1e-4
-
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-
-[time]
-tau = 0.8
-
-[faces]
-z_low.kind = "wall"
-z_high.kind = "wall"
-
-[gravity]
-acceleration = [0.0, 0.0, -0.5]
-
-[[grains]]
-kind = "sphere"
-centre = [5e-4, 5e-4, 9e-4]
-diameter = 6e-4
-density = 2650.0
-motion = "free"
-
-[[grains]]
-kind = "sphere"
-centre = [14e-4, 5e-4, 9e-4]
-diameter = 5e-4
-density = 1200.0
-motion = "free"
-spin = [0.0, 1.0, 0.0]
-
-[[grains]]
-kind = "sphere"
-centre = [10e-4, 12e-4, 8e-4]
-diameter = 5e-4
-density = 1800.0
-motion = "free"
-velocity = [1e-3, 0.0, 0.0]
-
+static GRAINS: LazyLock<String> = LazyLock::new(|| {
+    let gravity = "[gravity]\nacceleration = [0.0, 0.0, -0.5]\n";
+    let grains = [
+        free_sphere("[5e-4, 5e-4, 9e-4]", "6e-4", "2650.0"),
+        free_sphere("[14e-4, 5e-4, 9e-4]", "5e-4", "1200.0") + "spin = [0.0, 1.0, 0.0]\n",
+        free_sphere("[10e-4, 12e-4, 8e-4]", "5e-4", "1800.0") + "velocity = [1e-3, 0.0, 0.0]\n",
+    ]
+    .concat();
+    let rest = r#"
 [[records]]
 name = "box"
 kind = "box"
 every_steps = 20
-
 [checkpoint]
 every_steps = 40
-
 [stop]
 steps = 80
 "#;
-
-fn scene(text: &str, changes: &[&str]) -> Scene {
-    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-    Scene::from_bytes("test.toml", text.into(), Path::new(""), &changes)
-        .unwrap_or_else(|error| panic!("{error}"))
-}
+    water([20, 16, 18], 1e-4, &format!("{FLOOR_AND_LID}{gravity}{grains}{rest}"))
+});
 
 fn opened(engine: EngineName, scene: &Scene) -> Coupled {
     open(engine, scene, trials::device_of(engine).as_ref(), false).unwrap()
@@ -82,7 +44,7 @@ fn opened(engine: EngineName, scene: &Scene) -> Coupled {
 fn free_grains_move_as_in_the_oracle(engine: EngineName) {
     let mut budget = Budget::kernel(700_000);
     const STEPS: u64 = 100;
-    let scene = scene(GRAINS, &[]);
+    let scene = scene(&GRAINS);
     budget.spend(STEPS * scene.setup.domain.cell_count() as u64);
     let (mut kernel, mut oracle) = (opened(engine, &scene), opened(EngineName::Reference, &scene));
     kernel.step(STEPS).unwrap();
@@ -111,9 +73,8 @@ fn free_grains_move_as_in_the_oracle(engine: EngineName) {
 fn balanced_grains_settle_as_in_the_oracle(engine: EngineName) {
     let mut budget = Budget::kernel(300_000);
     const STEPS: u64 = 50;
-    let walls = "z_low.kind = \"wall\"\nz_high.kind = \"wall\"";
-    let text = GRAINS.replace(walls, "").replace("-0.5]", "-0.5]\nbalance = true");
-    let scene = scene(&text, &[]);
+    let text = GRAINS.replace(FLOOR_AND_LID, "").replace("-0.5]", "-0.5]\nbalance = true");
+    let scene = scene(&text);
     budget.spend(STEPS * scene.setup.domain.cell_count() as u64);
     let (mut kernel, mut oracle) = (opened(engine, &scene), opened(EngineName::Reference, &scene));
     // What the body force lacks in the cells of grains, as the device has it. A solid fraction is off by 2e-6 and
@@ -142,32 +103,16 @@ fn balanced_grains_settle_as_in_the_oracle(engine: EngineName) {
 }
 
 /// Half of a grain that spins in fluid at rest; 8 cells across, in a box of three diameters.
-const SPINNING: &str = r#"
-[domain]
-cells = [24, 24, 12]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.6
-[faces]
-z_low.kind = "free_slip"
-z_high.kind = "free_slip"
-[[grains]]
-kind = "sphere"
-centre = [12e-5, 12e-5, 0.0]
-diameter = 8e-5
-density = 2650.0
-motion = "free"
-spin = [0.0, 0.0, 30.0]
-[stop]
-steps = 144
-"#;
+fn spinning() -> String {
+    let faces = "[faces]\nz_low.kind = \"free_slip\"\nz_high.kind = \"free_slip\"\n";
+    let grain = free_sphere("[12e-5, 12e-5, 0.0]", "8e-5", "2650.0");
+    let rest = "spin = [0.0, 0.0, 30.0]\n[stop]\nsteps = 144\n";
+    water([24, 24, 12], 1e-5, &format!("{faces}{grain}{rest}")).replace("tau = 0.8", "tau = 0.6")
+}
 
 fn grain_that_starts_spinning_slows_down_as_the_exact_curve_says(engine: EngineName) {
     let mut budget = Budget::kernel(1_000_000);
-    let scene = scene(SPINNING, &[]);
+    let scene = scene(&spinning());
     let mut kernel = opened(engine, &scene);
     let angular_velocity = |kernel: &Coupled| kernel.solids()[0].angular_velocity.z;
     let start = angular_velocity(&kernel);
@@ -258,13 +203,6 @@ fn every_golden_scene_starts_and_steps_as_on_the_oracle(engine: EngineName) {
     }
 }
 
-/// The bits of a state.
-fn bits(engine: &Coupled) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    engine.save(&mut bytes).unwrap();
-    bytes
-}
-
 fn saved_state_goes_on_bit_for_bit(engine: EngineName) {
     let mut budget = Budget::kernel(3_000_000);
     let fixed = std::fs::read_to_string("golden/sphere_arrays/scene.toml").unwrap();
@@ -272,9 +210,9 @@ fn saved_state_goes_on_bit_for_bit(engine: EngineName) {
     let inlet = "faces.x_low={kind=\"velocity_inlet\",velocity=[1e-3,0.0,0.0]}";
     let open = "faces.x_high={kind=\"pressure\",pressure=0.0,non_reflecting=true}";
     let scenes = [
-        scene(GRAINS, &[]),
-        scene(&fixed, &["domain.cells=[12,12,12]"]),
-        scene(GRAINS, &[inlet, open]),
+        scene(&GRAINS),
+        changed(&fixed, &["domain.cells=[12,12,12]"]),
+        changed(&GRAINS, &[inlet, open]),
     ];
     for scene in scenes {
         let cells = scene.setup.domain.cell_count() as u64;
@@ -293,38 +231,28 @@ fn saved_state_goes_on_bit_for_bit(engine: EngineName) {
                 }
             }
             straight.set_drive(&drive).unwrap();
-            let saved = bits(&straight);
+            let state = saved(&straight);
             let mut resumed = opened(engine, &scene);
-            resumed.load(&mut &saved[..]).unwrap();
-            assert!(bits(&resumed) == saved, "what is loaded is what was saved");
+            resumed.load(&mut &state[..]).unwrap();
+            assert!(saved(&resumed) == state, "what is loaded is what was saved");
             straight.step(30).unwrap();
             resumed.step(30).unwrap();
-            assert!(bits(&straight) == bits(&resumed), "from step {first}");
+            assert!(saved(&straight) == saved(&resumed), "from step {first}");
         }
     }
 }
 
 /// A force without anything that holds the fluid back.
-const RUNAWAY: &str = r#"
-[domain]
-cells = [8, 9, 10]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
-[body_force]
-acceleration = [0.5, 0.0, 0.0]
-[stop]
-steps = 10000
-"#;
+fn runaway() -> String {
+    let rest = "[body_force]\nacceleration = [0.5, 0.0, 0.0]\n[stop]\nsteps = 10000\n";
+    water([8, 9, 10], 1e-4, rest)
+}
 
 fn guard_stops_a_run_where_and_why_the_oracles_does(engine: EngineName) {
     let mut budget = Budget::kernel(150_000);
     // 5e-3 a step reach the limit of 0.5 after 100.
     budget.spend(720 * 200);
-    let scene = scene(RUNAWAY, &[]);
+    let scene = scene(&runaway());
     let stopped = |engine: &mut Coupled| -> ExplainedStop {
         match engine.step(200) {
             Err(EngineStop::Broken(diagnosis)) => *diagnosis,
@@ -347,7 +275,7 @@ fn guard_stops_a_run_where_and_why_the_oracles_does(engine: EngineName) {
 
 fn run_on_the_command_line_keeps_its_engine_and_goes_on_with_it(engine: EngineName) {
     let folder = Folder::new("kernel_engine");
-    let file = folder.write("scene.toml", GRAINS);
+    let file = folder.write("scene.toml", &*GRAINS);
     let (file, out) = (file.to_str().unwrap(), folder.path("run"));
     let run = ["run", file, "--engine", engine.word(), "--profile", "--out", out.to_str().unwrap()];
     let output = psmrt(&run);
@@ -396,7 +324,7 @@ fn adapter_for_the_oracle_is_an_error() {
 fn box_that_does_not_fit_is_refused_with_the_bytes_needed_and_available() {
     let gpu = psmrt::kernel::Gpu::open_like_hardware(1 << 16).unwrap();
     // One direction of 32³ cells needs 128 KiB and a little, a binding has 64.
-    let scene = scene(RUNAWAY, &["domain.cells=[32,32,32]"]);
+    let scene = changed(&runaway(), &["domain.cells=[32,32,32]"]);
     let message = open(EngineName::Wgpu, &scene, Some(&gpu), false).unwrap_err().to_string();
     assert!(message.contains("65536") && message.contains("13"), "{message}");
     assert!(message.contains("larger dx"), "{message}");

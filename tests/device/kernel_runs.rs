@@ -36,6 +36,15 @@ use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 
+fn assert_within_rounding(name: &str, both: &Both) {
+    let errors = both.errors();
+    println!("{name}: {errors:.3?}");
+    assert!(
+        errors.worst() < 1.0,
+        "{name}: engine against oracle, errors over what single precision explains: {errors:?}",
+    );
+}
+
 fn hundred_steps_of_every_model_and_face_stay_within_rounding_of_the_oracle(engine: EngineName) {
     let mut budget = Budget::kernel(2_000_000);
     let mut random = Random(1);
@@ -43,13 +52,7 @@ fn hundred_steps_of_every_model_and_face_stay_within_rounding_of_the_oracle(engi
         let start = waves(&mut random, &setup.domain);
         let mut both = Both::new(engine, &setup, &start);
         both.run(&mut budget, 100);
-        let errors = both.errors();
-        println!("{name}: {errors:.3?}");
-        assert!(
-            errors.worst() < 1.0,
-            "{name}: engine against oracle, errors over what single precision explains: \
-             {errors:?}",
-        );
+        assert_within_rounding(name, &both);
     }
 }
 
@@ -62,13 +65,7 @@ fn cells_one_at_a_time_and_populations_over_two_bindings_give_the_same() {
         let start = waves(&mut random, &setup.domain);
         let mut both = Both::on(EngineName::Wgpu, Some(&gpu), &setup, &start);
         both.run(&mut budget, 20);
-        let errors = both.errors();
-        println!("{name}: {errors:.3?}");
-        assert!(
-            errors.worst() < 1.0,
-            "{name}: engine against oracle, errors over what single precision explains: \
-             {errors:?}",
-        );
+        assert_within_rounding(name, &both);
     }
 }
 
@@ -81,13 +78,7 @@ fn thousand_steps_stay_within_rounding_of_the_oracle(engine: EngineName) {
         let start = waves(&mut random, &setup.domain);
         let mut both = Both::new(engine, &setup, &start);
         both.run(&mut budget, 1000);
-        let errors = both.errors();
-        println!("{name}: {errors:.3?}");
-        assert!(
-            errors.worst() < 1.0,
-            "{name}: engine against oracle, errors over what single precision explains: \
-             {errors:?}",
-        );
+        assert_within_rounding(name, &both);
     }
 }
 

@@ -16,6 +16,8 @@ mod edges;
 mod mixed;
 #[path = "../parity/mod.rs"]
 mod parity;
+#[path = "../scenes/mod.rs"]
+mod scenes;
 #[path = "../trials/mod.rs"]
 mod trials;
 

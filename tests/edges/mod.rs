@@ -10,14 +10,10 @@ use std::path::Path;
 use std::process::Output;
 
 use crate::cli::{Folder, stderr, stdout};
+use crate::scenes::water;
 
-/// A scene's sections besides its box: water, tau = 0.8, a record of every kind, 20 steps.
+/// A record of every kind, 20 steps.
 const REST: &str = r#"
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
 [[records]]
 name = "box"
 kind = "box"
@@ -43,7 +39,7 @@ pub const STEPS: u64 = 20;
 
 /// A box of so many cells with faces, forces, grains as `more` says.
 pub fn scene(cells: [usize; 3], more: &str) -> String {
-    format!("[domain]\ncells = {cells:?}\ndx = 1e-5\n{REST}{more}")
+    water(cells, 1e-5, &format!("{REST}{more}"))
 }
 
 /// Every number in every table, array and picture below `folder` is finite.

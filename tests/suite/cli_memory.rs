@@ -6,17 +6,17 @@ use std::process::Command;
 
 use crate::cli::{Folder, stderr};
 use crate::common::Budget;
+use crate::scenes::water;
 
-const SCENE: &str = "[domain]\ncells = [64, 64, 64]\ndx = 1e-5\n[fluid]\ndensity = 1000.0\n\
-                     kinematic_viscosity = 1e-6\n[time]\ntau = 0.8\n[[records]]\nname = \"box\"\n\
-                     kind = \"box\"\nevery_steps = 1\n[checkpoint]\nevery_steps = 1\n[stop]\nsteps = 2\n";
+const SECTIONS: &str = "[[records]]\nname = \"box\"\nkind = \"box\"\nevery_steps = 1\n[checkpoint]\n\
+                        every_steps = 1\n[stop]\nsteps = 2\n";
 
 #[test]
 fn a_run_within_any_limit_of_memory_either_ends_well_or_is_refused_with_figures() {
     // Three runs that fit.
     Budget::oracle(1_572_864).spend(3 * 2 * 64 * 64 * 64);
     let folder = Folder::new("memory");
-    folder.write("scene.toml", SCENE);
+    folder.write("scene.toml", water([64, 64, 64], 1e-5, SECTIONS));
     let mut codes = Vec::new();
     for mebibytes in [60, 100, 150, 200, 1000] {
         let out = format!("out_{mebibytes}");

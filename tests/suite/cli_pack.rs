@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 use std::fs;
-use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use crate::cli::{Folder, psmrt, psmrt_in, stderr, stdout};
-use psmrt::scene::Scene;
+use crate::scenes::{BOX, scene, water};
 use psmrt_reference::solids::{Shape, Solid};
 
 /// Runs `psmrt pack` with these options in a folder; its JSON.
@@ -46,9 +45,11 @@ fn a_packing_has_the_porosity_asked_for_and_a_scene_reads_it() {
     assert!(told["largest_overlap"].as_f64().unwrap() <= 2e-3 && told["grains"] == 60, "{told}");
     let scene = folder.write(
         "scene.toml",
-        "[domain]\ncells = [40, 40, 40]\ndx = 1e-5\n[fluid]\ndensity = 1000.0\n\
-         kinematic_viscosity = 1e-6\n[time]\ntau = 0.8\n[stop]\nsteps = 1\n[[grains]]\nkind = \"csv\"\n\
-         file = \"grains.csv\"\nmotion = \"free\"\n",
+        water(
+            [40, 40, 40],
+            1e-5,
+            "[stop]\nsteps = 1\n[[grains]]\nkind = \"csv\"\nfile = \"grains.csv\"\nmotion = \"free\"\n",
+        ),
     );
     let output = psmrt(&["check", scene.to_str().unwrap(), "--json"]);
     assert!(output.status.success(), "{}", stderr(&output));
@@ -152,12 +153,8 @@ fn packings_that_cannot_be_made_are_refused_and_leave_nothing() {
 }
 
 fn solids(grains: &str, faces: &str) -> Vec<Solid> {
-    let text = format!(
-        "[domain]\ncells = [40, 32, 48]\ndx = 1e-5\n[fluid]\ndensity = 1000.0\n\
-         kinematic_viscosity = 1e-6\n[time]\ntau = 0.8\n[stop]\nsteps = 1\n{faces}\n[[grains]]\n{grains}"
-    );
-    let scene = Scene::from_bytes("scene.toml", text.into_bytes(), Path::new("."), &[]);
-    scene.unwrap_or_else(|error| panic!("{error}")).setup.solid_phase.unwrap().solids
+    let rest = format!("[stop]\nsteps = 1\n{faces}[[grains]]\n{grains}");
+    scene(&water([40, 32, 48], 1e-5, &rest)).setup.solid_phase.unwrap().solids
 }
 
 fn radius(solid: &Solid) -> f64 {
@@ -165,13 +162,10 @@ fn radius(solid: &Solid) -> f64 {
     radius
 }
 
-const WALLS: &str = "[faces]\nx_low.kind = \"wall\"\nx_high.kind = \"wall\"\ny_low.kind = \"wall\"\n\
-                     y_high.kind = \"wall\"\nz_low.kind = \"wall\"\nz_high.kind = \"wall\"\n";
-
 #[test]
 fn a_random_suspension_has_the_fraction_the_gap_and_the_seed_asked_for() {
     let grains = "kind = \"random\"\nsolid_fraction = 0.12\ndiameter = 5e-5\ngap = 5e-6\nseed = 4";
-    for (faces, periodic) in [("", true), (WALLS, false)] {
+    for (faces, periodic) in [("", true), (BOX, false)] {
         let found = solids(grains, faces);
         let fraction = found.len() as f64 * PI / 6.0 * 5.0_f64.powi(3) / (40.0 * 32.0 * 48.0);
         // To half a grain of the 113.
@@ -212,7 +206,7 @@ fn a_dense_periodic_suspension_is_pushed_apart_and_sizes_lie_in_their_range() {
 #[test]
 fn a_bed_lies_on_the_floor_between_its_walls() {
     let grains = "kind = \"bed\"\ncount = 40\ndiameter = 8e-5\npacking_friction = 0.3";
-    let found = solids(grains, WALLS);
+    let found = solids(grains, BOX);
     assert_eq!(found.len(), 40);
     let lowest = found.iter().map(|solid| solid.centre.z - 4.0).fold(f64::INFINITY, f64::min);
     let highest = found.iter().map(|solid| solid.centre.z + 4.0).fold(0.0, f64::max);

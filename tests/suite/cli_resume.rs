@@ -2,23 +2,18 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
-use std::sync::OnceLock;
+use std::process::{Command, Stdio};
+use std::sync::{LazyLock, OnceLock};
 use std::time::Duration;
 
+use crate::cli::runs::{checkpoints, start};
 use crate::cli::{Folder, psmrt, stderr};
 use crate::common::Budget;
+use crate::scenes::{thick, water};
 
 /// A sphere that moves through a box, all kinds of records, in half a second of computing.
-const SCENE: &str = r#"
-[domain]
-cells = [16, 12, 12]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+static SCENE: LazyLock<String> = LazyLock::new(|| {
+    let rest = r#"
 [body_force]
 acceleration = [0.5, 0.0, 0.1]
 [[grains]]
@@ -50,17 +45,12 @@ every_steps = 20
 [stop]
 steps = 600
 "#;
+    water([16, 12, 12], 1e-5, rest)
+});
 
 /// A free sphere thrown onto two more, with friction, and a wall that moves: contacts come and go.
-const FREE_SCENE: &str = r#"
-[domain]
-cells = [16, 12, 14]
-dx = 4e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-5
-[time]
-tau = 0.6
+fn free_scene() -> String {
+    let rest = r#"
 [faces]
 z_low = { kind = "wall", velocity = [5e-2, 0.0, 0.0] }
 z_high.kind = "wall"
@@ -94,6 +84,8 @@ every_steps = 8
 [stop]
 steps = 400
 "#;
+    thick(&water([16, 12, 14], 4e-5, rest)).replace("tau = 0.8", "tau = 0.6")
+}
 
 const GRAINS: &str = "x (m),y (m),z (m),diameter (m),density (kg/m3)
 3.5e-4,2.3e-4,3.1e-4,1.6e-4,2500
@@ -115,22 +107,6 @@ fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     }
     found.sort();
     found
-}
-
-fn start(scene: &Path, out: &Path) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_psmrt"))
-        .arg("run")
-        .arg(scene)
-        .arg("--out")
-        .arg(out)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap()
-}
-
-fn list(run: &Path) -> Vec<PathBuf> {
-    psmrt::checkpoint::list(run).unwrap()
 }
 
 fn assert_same(a: &[(PathBuf, Vec<u8>)], b: &[(PathBuf, Vec<u8>)], what: &str) {
@@ -156,7 +132,7 @@ fn whole() -> &'static [(PathBuf, Vec<u8>)] {
         // This run, and theirs.
         Budget::oracle(5_600_000).spend(4 * 600 * 16 * 12 * 12);
         let folder = Folder::new("reference");
-        let scene = folder.write("scene.toml", SCENE);
+        let scene = folder.write("scene.toml", &*SCENE);
         uninterrupted(&folder, &scene).0
     })
 }
@@ -166,14 +142,14 @@ fn a_run_killed_again_and_again_ends_with_the_same_bytes() {
     // The whole run and four that are killed, which do some steps twice.
     Budget::oracle(8_100_000).spend(5 * 700 * 16 * 12 * 12);
     // Tables and pictures of them, and 4 times 3 arrays.
-    killed_again_and_again("killed", SCENE, 3 + 3 + 3 * 4);
+    killed_again_and_again("killed", &SCENE, 3 + 3 + 3 * 4);
 }
 
 #[test]
 fn a_run_with_free_grains_that_touch_ends_with_the_same_bytes_too() {
     Budget::oracle(7_000_000).spend(5 * 500 * 16 * 12 * 14);
     // The list of grains, two tables and their pictures, 9 files of grains and their series.
-    killed_again_and_again("killed_free", FREE_SCENE, 1 + 4 + 9 + 1);
+    killed_again_and_again("killed_free", &free_scene(), 1 + 4 + 9 + 1);
 }
 
 fn killed_again_and_again(name: &str, text: &str, files: usize) {
@@ -212,10 +188,10 @@ fn killed_again_and_again(name: &str, text: &str, files: usize) {
 
 /// A run that was killed with two checkpoints on the disk.
 fn killed_with_two_checkpoints(folder: &Folder) -> (PathBuf, Vec<PathBuf>) {
-    let scene = folder.write("scene.toml", SCENE);
+    let scene = folder.write("scene.toml", &*SCENE);
     let out = folder.path("run");
     let mut child = start(&scene, &out);
-    let list = || list(&out);
+    let list = || checkpoints(&out);
     while list().len() < 2 && child.try_wait().unwrap().is_none() {
         std::thread::sleep(Duration::from_millis(2));
     }
@@ -288,10 +264,10 @@ fn a_run_killed_before_its_scene_was_written_says_what_to_do() {
 #[test]
 fn an_interruption_saves_the_state_and_says_how_to_go_on() {
     let folder = Folder::new("interrupted");
-    let scene = folder.write("scene.toml", SCENE);
+    let scene = folder.write("scene.toml", &*SCENE);
     let out = folder.path("run");
     let child = start(&scene, &out);
-    while list(&out).is_empty() {
+    while checkpoints(&out).is_empty() {
         std::thread::sleep(Duration::from_millis(2));
     }
     let id = child.id().to_string();
@@ -308,7 +284,7 @@ fn an_interruption_saves_the_state_and_says_how_to_go_on() {
 fn a_full_disk_loses_nothing_that_was_written_before() {
     let folder = Folder::new("full");
     let (out, _) = killed_with_two_checkpoints(&folder);
-    let before = list(&out);
+    let before = checkpoints(&out);
     // A limit on the size of files stands for the full disk.
     let script = format!(
         "trap '' XFSZ; ulimit -f 16; exec {} resume {}",
@@ -318,7 +294,7 @@ fn a_full_disk_loses_nothing_that_was_written_before() {
     let output = Command::new("sh").args(["-c", &script]).output().unwrap();
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     assert!(stderr(&output).contains("cannot be written"), "{}", stderr(&output));
-    assert_eq!(list(&out), before);
+    assert_eq!(checkpoints(&out), before);
     let output = psmrt(&["resume", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));
     assert_same(whole(), &results(&out), "after a full disk");

@@ -16,6 +16,8 @@ mod driven;
 mod edges;
 #[path = "../mixed/mod.rs"]
 mod mixed;
+#[path = "../scenes/mod.rs"]
+mod scenes;
 
 mod agreement;
 mod bad_scenes;

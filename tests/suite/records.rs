@@ -2,9 +2,11 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
+use crate::scenes::{changed, water};
 use psmrt::advice::estimate::{disk, warnings};
 use psmrt::engine::{Coupled, EngineName, open, starting_from};
 use psmrt::output::records::{box_row, profile_rows};
@@ -13,15 +15,8 @@ use psmrt::scene::format_run::Quantity;
 use psmrt::scene::{Scene, What};
 use psmrt_reference::lattice::Vec3;
 
-const COUETTE: &str = r#"
-[domain]
-cells = [4, 8, 2]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+static COUETTE: LazyLock<String> = LazyLock::new(|| {
+    let rest = r#"
 [collision]
 model = "srt"
 [faces]
@@ -40,17 +35,14 @@ range = [0.0, 0.01]
 [stop]
 steps = 2000
 "#;
-
-fn scene(text: &str, changes: &[&str]) -> Scene {
-    let changes: Vec<String> = changes.iter().map(|&change| change.to_owned()).collect();
-    Scene::from_bytes("test.toml", text.into(), Path::new(""), &changes).unwrap()
-}
+    water([4, 8, 2], 1e-4, rest)
+});
 
 #[test]
 fn couette_flow_half_way_between_the_plates_has_half_the_velocity_on_an_even_grid() {
     let mut budget = Budget::oracle(200_000);
     let folder = Folder::new("couette_middle");
-    let file = folder.write("scene.toml", COUETTE);
+    let file = folder.write("scene.toml", &*COUETTE);
     let out = folder.path("out");
     budget.spend(2000 * 64);
     let output = psmrt(&["run", file.to_str().unwrap(), "--out", out.to_str().unwrap()]);
@@ -78,7 +70,7 @@ fn couette_flow_half_way_between_the_plates_has_half_the_velocity_on_an_even_gri
 
 /// A fluid whose velocity is linear in the place, `u_x = 1e-3 (1 + x + 2 y + 3 z)` in cells.
 fn linear(faces: &str) -> (Scene, Coupled) {
-    let scene = scene(&COUETTE.replace("4, 8, 2", "4, 5, 6"), &[&format!("faces={faces}")]);
+    let scene = changed(&COUETTE.replace("4, 8, 2", "4, 5, 6"), &[&format!("faces={faces}")]);
     let state =
         |at: Vec3| (1.0, Vec3::new(1e-3 * (1.0 + at.x + 2.0 * at.y + 3.0 * at.z), 0.0, 0.0));
     let engine = starting_from(EngineName::Reference, &scene.setup, None, None, state).unwrap();
@@ -132,15 +124,7 @@ fn colours_of_a_fixed_range_do_not_depend_on_the_values() {
 
 #[test]
 fn a_fluid_at_rest_has_no_velocity_in_the_first_row_whatever_drives_it() {
-    let text = r#"
-[domain]
-cells = [8, 8, 8]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.9
+    let rest = r#"
 [body_force]
 acceleration = [1000.0, 0.0, 0.0]
 [[grains]]
@@ -154,9 +138,10 @@ every_steps = 1
 [stop]
 steps = 1
 "#;
+    let text = water([8, 8, 8], 1e-5, rest).replace("tau = 0.8", "tau = 0.9");
     // Half a step of the force gives g dt/2 = 6.7e-4 m/s; a sum of 19 populations rounds to 1e-16 of sound.
     let start = |changes: &[&str]| {
-        let scene = scene(text, changes);
+        let scene = changed(&text, changes);
         let engine = open(EngineName::Reference, &scene, None, false).unwrap();
         (box_row(&scene, &engine), scene.units.si_velocity())
     };
@@ -175,7 +160,7 @@ fn a_relaxation_time_reaches_the_engine_as_it_is_written() {
         for dx in [1e-4, 3.125e-5, 7e-6] {
             let changes =
                 ["faces={}".into(), format!("time.tau={tau}"), format!("domain.dx={dx:e}")];
-            let scene = scene(COUETTE, &changes.each_ref().map(String::as_str));
+            let scene = changed(&COUETTE, &changes.each_ref().map(String::as_str));
             assert_eq!(
                 scene.setup.collision.tau().to_bits(),
                 f64::to_bits(tau),
@@ -195,7 +180,7 @@ fn an_interval_that_is_no_whole_number_of_steps_is_told() {
             "domain.dx=3.873e-6".to_owned(),
         ];
         let changes: Vec<&str> = changes.iter().map(String::as_str).chain(["faces={}"]).collect();
-        let scene = scene(COUETTE, &changes);
+        let scene = changed(&COUETTE, &changes);
         let all = warnings(&scene).into_iter().map(|warning| warning.reason);
         all.filter(|reason| reason.contains("`every`")).collect::<Vec<_>>()
     };
@@ -220,15 +205,7 @@ fn size(folder: &Path, endings: &[&str]) -> u64 {
 
 #[test]
 fn a_run_writes_no_more_than_its_estimate_and_not_much_less() {
-    let text = r#"
-[domain]
-cells = [12, 16, 20]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+    let rest = r#"
 [body_force]
 acceleration = [50.0, 20.0, 0.0]
 [[grains]]
@@ -240,6 +217,7 @@ every_steps = 20
 [stop]
 steps = 100
 "#;
+    let text = water([12, 16, 20], 1e-5, rest);
     let mut budget = Budget::oracle(2_310_000);
     for (kind, more, endings, least) in [
         ("box", "every_steps = 1", &["r.csv", "r.svg"][..], 0.5),

@@ -1,53 +1,30 @@
 //! What `psmrt check` tells of free grains: numbers against formulas in SI units, warnings where due.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use psmrt::advice::estimate::{models, numbers, warnings};
-use psmrt::scene::Scene;
 use psmrt::table::Table;
 
+use crate::scenes::{BOX, GRAVITY, free_sphere, scene, water};
+
 /// A grain of quartz in water in a closed box, 8 cells per diameter.
-const SCENE: &str = r#"
-[domain]
-cells = [32, 32, 64]
-dx = 6.25e-6
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
-[faces]
-x_low.kind = "wall"
-x_high.kind = "wall"
-y_low.kind = "wall"
-y_high.kind = "wall"
-z_low.kind = "wall"
-z_high.kind = "wall"
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
-[contact]
-friction = 0.3
-[[grains]]
-kind = "sphere"
-centre = [1e-4, 1e-4, 2e-4]
-diameter = 5e-5
-density = 2650.0
-motion = "free"
+static SCENE: LazyLock<String> = LazyLock::new(|| {
+    let grain = free_sphere("[1e-4, 1e-4, 2e-4]", "5e-5", "2650.0");
+    let rest = r#"
 [[records]]
 name = "means"
 kind = "grain_means"
 [stop]
 steps = 10
 "#;
-
-fn scene(text: &str) -> Scene {
-    Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), Path::new("."), &[])
-        .unwrap_or_else(|error| panic!("{error}"))
-}
+    let text = format!("{BOX}{GRAVITY}[contact]\nfriction = 0.3\n{grain}{rest}");
+    water([32, 32, 64], 6.25e-6, &text)
+});
 
 #[test]
 fn derived_numbers_of_grains_follow_from_the_scene_in_si_units() {
-    let scene = scene(SCENE);
+    let scene = scene(&SCENE);
     let found = numbers(&scene);
     let value = |name: &str| found.iter().find(|number| number.name == name).unwrap().value;
     let (d, dt) = (5e-5_f64, 0.1 * 6.25e-6_f64 * 6.25e-6 / 1e-6);
@@ -103,7 +80,7 @@ fn damping_of_a_half() -> (f64, f64) {
 
 #[test]
 fn risky_scenes_of_grains_are_warned_of_with_a_remedy_and_a_sound_one_is_not() {
-    assert!(warnings(&scene(SCENE)).is_empty(), "{:?}", warnings(&scene(SCENE)));
+    assert!(warnings(&scene(&SCENE)).is_empty(), "{:?}", warnings(&scene(&SCENE)));
     for (from, to, reason, remedy) in [
         ("-9.81]", "-9.81]\nform = \"body_force\"", "58, 80 and 92 %", "reduced"),
         ("tau = 0.8", "tau = 1.6", "grains are predicted to settle", "time.tau"),
@@ -128,7 +105,7 @@ fn risky_scenes_of_grains_are_warned_of_with_a_remedy_and_a_sound_one_is_not() {
 #[test]
 fn models_of_grains_are_listed_only_where_they_are_on() {
     let listed = |text: &str| models(&scene(text)).join("\n");
-    let plain = listed(SCENE);
+    let plain = listed(&SCENE);
     assert!(plain.contains("free grains: DEM") && plain.contains("friction 0.3"), "{plain}");
     assert!(
         !plain.contains("lubrication") && !plain.contains("rolling") && !plain.contains("sieve")

@@ -2,12 +2,13 @@
 //! not held stops the run with cause and remedy, and keys of `[contact]` out of all proportion are blamed.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use crate::cli::{Folder, psmrt, stderr};
 use crate::common::Budget;
+use crate::scenes::{BOX, FLOOR_AND_LID, GRAVITY, free_sphere, read, scene, water};
 use psmrt::advice::estimate::{numbers, warnings};
 use psmrt::engine::{EngineName, open};
-use psmrt::scene::Scene;
 use psmrt_reference::grains::grain::sphere_volume;
 use psmrt_reference::grains::hold::deepest_of;
 use psmrt_reference::grains::system::GrainSystem;
@@ -15,20 +16,8 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Load;
 
 /// Sixty grains of sand that have settled under water, contacts by default.
-const BED: &str = r#"
-[domain]
-cells = [32, 32, 40]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
-[faces]
-z_low.kind = "wall"
-z_high.kind = "wall"
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
+static BED: LazyLock<String> = LazyLock::new(|| {
+    let grains = r#"
 [[grains]]
 kind = "bed"
 diameter = 6e-4
@@ -38,38 +27,14 @@ motion = "free"
 [stop]
 steps = 10
 "#;
+    water([32, 32, 40], 1e-4, &format!("{FLOOR_AND_LID}{GRAVITY}{grains}"))
+});
 
 /// A ball of steel (1 mm) above a grain (0.2 mm) on the floor, contacts by default.
-const BALL: &str = r#"
-[domain]
-cells = [12, 12, 24]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-dt = 0.0002
-[faces]
-x_low.kind = "wall"
-x_high.kind = "wall"
-y_low.kind = "wall"
-y_high.kind = "wall"
-z_low.kind = "wall"
-z_high.kind = "wall"
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
-[[grains]]
-kind = "sphere"
-centre = [6e-4, 6e-4, 0.0009]
-diameter = 0.001
-density = 7800.0
-motion = "free"
-[[grains]]
-kind = "sphere"
-centre = [6e-4, 6e-4, 0.000101]
-diameter = 0.0002
-density = 2500.0
-motion = "free"
+static BALL: LazyLock<String> = LazyLock::new(|| {
+    let ball = free_sphere("[6e-4, 6e-4, 0.0009]", "0.001", "7800.0");
+    let grain = free_sphere("[6e-4, 6e-4, 0.000101]", "0.0002", "2500.0");
+    let rest = r#"
 [[records]]
 name = "means"
 kind = "grain_means"
@@ -77,30 +42,16 @@ every_steps = 5
 [stop]
 steps = 60
 "#;
+    water([12, 12, 24], 1e-4, &format!("{BOX}{GRAVITY}{ball}{grain}{rest}"))
+        .replace("tau = 0.8", "dt = 0.0002")
+});
 
 /// A heavy grain on a floor that is too soft for it.
-const SOFT: &str = r#"
-[domain]
-cells = [10, 10, 10]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-dt = 2e-4
-[faces]
-z_low.kind = "wall"
-z_high.kind = "wall"
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
+static SOFT: LazyLock<String> = LazyLock::new(|| {
+    let grain = free_sphere("[5e-4, 5e-4, 3e-4]", "6e-4", "2650.0");
+    let rest = r#"
 [contact]
 stiffness = 1e-3
-[[grains]]
-kind = "sphere"
-centre = [5e-4, 5e-4, 3e-4]
-diameter = 6e-4
-density = 2650.0
-motion = "free"
 [[records]]
 name = "g"
 kind = "loads"
@@ -108,15 +59,9 @@ every_steps = 20
 [stop]
 steps = 400
 "#;
-
-fn parsed(text: &str) -> Result<Scene, String> {
-    Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), Path::new("."), &[])
-        .map_err(|error| error.to_string())
-}
-
-fn scene(text: &str) -> Scene {
-    parsed(text).unwrap_or_else(|error| panic!("{error}"))
-}
+    water([10, 10, 10], 1e-4, &format!("{FLOOR_AND_LID}{GRAVITY}{grain}{rest}"))
+        .replace("tau = 0.8", "dt = 2e-4")
+});
 
 /// The number that follows `words` in a message.
 fn number_after(message: &str, words: &str) -> f64 {
@@ -197,7 +142,7 @@ fn a_bed_at_rest_overlaps_by_less_than_one_percent_of_a_diameter_at_any_tau() {
 #[test]
 fn a_steel_ball_that_falls_on_a_small_grain_overlaps_it_by_less_than_five_percent() {
     let mut budget = Budget::oracle(210_000);
-    let scene = scene(BALL);
+    let scene = scene(&BALL);
     let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     let mut deepest = 0.0_f64;
     budget.spend(60 * scene.setup.domain.cell_count() as u64);
@@ -214,7 +159,7 @@ fn a_steel_ball_that_falls_on_a_small_grain_overlaps_it_by_less_than_five_percen
 fn a_grain_that_sinks_through_the_floor_stops_the_run_and_the_remedy_works() {
     let mut budget = Budget::oracle(800_000);
     let folder = Folder::new("soft_floor");
-    let path = folder.write("scene.toml", SOFT);
+    let path = folder.write("scene.toml", &*SOFT);
     let out = folder.path("out");
     let run = |more: &[&str], out: &Path| {
         let paths = [path.to_str().unwrap(), "--out", out.to_str().unwrap()];
@@ -234,7 +179,7 @@ fn a_grain_that_sinks_through_the_floor_stops_the_run_and_the_remedy_works() {
     let last = table.lines().last().unwrap().split(',').nth(1).unwrap().parse::<f64>().unwrap();
     assert!(last <= step && last + 20.0 > step, "last row {last}, stopped at {step}");
     // `check` has known it.
-    let risky = warnings(&scene(SOFT));
+    let risky = warnings(&scene(&SOFT));
     assert!(risky.iter().any(|warning| warning.reason.contains("too soft for it")), "{risky:?}");
     // The remedy, followed.
     let harder = format!("contact.stiffness={}", number_after(&said, "contact.stiffness = "));
@@ -246,32 +191,11 @@ fn a_grain_that_sinks_through_the_floor_stops_the_run_and_the_remedy_works() {
 #[test]
 fn a_grain_that_an_overlap_at_the_start_throws_is_told_from_one_that_the_flow_drives() {
     let mut budget = Budget::oracle(20_000);
-    let text = r#"
-[domain]
-cells = [16, 10, 10]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
-[contact]
-stiffness = 500.0
-[[grains]]
-kind = "sphere"
-centre = [5e-4, 5e-4, 5e-4]
-diameter = 6e-4
-density = 2650.0
-motion = "free"
-[[grains]]
-kind = "sphere"
-centre = [1.095e-3, 5e-4, 5e-4]
-diameter = 6e-4
-density = 2650.0
-motion = "free"
-[stop]
-steps = 10
-"#;
+    let grains = ["[5e-4, 5e-4, 5e-4]", "[1.095e-3, 5e-4, 5e-4]"]
+        .map(|centre| free_sphere(centre, "6e-4", "2650.0"))
+        .concat();
+    let rest = "[contact]\nstiffness = 500.0\n[stop]\nsteps = 10\n";
+    let text = water([16, 10, 10], 1e-4, &format!("{grains}{rest}"));
     budget.spend(10 * 1600);
     let folder = Folder::new("thrown");
     let path = folder.write("scene.toml", text);
@@ -306,7 +230,7 @@ const ABSURD: [(&str, &str, &str); 9] = [
 fn absurd_contacts_blame_their_own_key_with_a_range_that_is_accepted() {
     for (section, key, unit) in ABSURD {
         let text = |section: &str| BALL.replace("[[records]]", &format!("{section}\n[[records]]"));
-        let said = parsed(&text(section)).expect_err(section);
+        let said = read(&text(section)).expect_err(section);
         assert!(said.contains(&format!("error: {key}")), "{section}: {said}");
         // "it must be 4.40e-3 N s/m or less": that value is accepted.
         assert!(said.contains(unit), "{section}: {said}");
@@ -317,11 +241,11 @@ fn absurd_contacts_blame_their_own_key_with_a_range_that_is_accepted() {
             false => format!("{line}\n"),
         });
         let changed: String = changed.collect();
-        assert!(parsed(&text(&changed)).is_ok(), "{changed}: {:?}", parsed(&text(&changed)).err());
+        assert!(read(&text(&changed)).is_ok(), "{changed}: {:?}", read(&text(&changed)).err());
     }
     for ratio in ["1e300", "1e-300", "-1.0", "nan"] {
         let section = format!("[contact]\ntangential_ratio = {ratio}\n[[records]]");
-        let said = parsed(&BALL.replace("[[records]]", &section)).expect_err(ratio);
+        let said = read(&BALL.replace("[[records]]", &section)).expect_err(ratio);
         assert!(
             said.contains("contact.tangential_ratio") && said.contains("0.001 to 10"),
             "{said}"
@@ -332,13 +256,13 @@ fn absurd_contacts_blame_their_own_key_with_a_range_that_is_accepted() {
 #[test]
 fn grains_that_need_too_many_substeps_are_refused_with_two_ways_out_that_work() {
     let text = BALL.replace("dt = 0.0002", "dt = 0.001");
-    let said = parsed(&text).unwrap_err();
+    let said = read(&text).unwrap_err();
     assert!(said.contains("2500 is the limit") && said.contains("error: contact"), "{said}");
     let si_dt = number_after(&said, "shorten the time step to ");
     let shorter = BALL.replace("dt = 0.0002", &format!("dt = {si_dt:e}"));
-    assert!(parsed(&shorter).is_ok(), "{:?}", parsed(&shorter).err());
+    assert!(read(&shorter).is_ok(), "{:?}", read(&shorter).err());
     let stiffness = number_after(&said, "stiffness = ");
     let softer =
         text.replace("[[records]]", &format!("[contact]\nstiffness = {stiffness:e}\n[[records]]"));
-    assert!(parsed(&softer).is_ok(), "{:?}", parsed(&softer).err());
+    assert!(read(&softer).is_ok(), "{:?}", read(&softer).err());
 }

@@ -1,10 +1,11 @@
 //! Scenes with free grains: what the keys become, what holds grains back, what a checkpoint keeps.
 
 use std::f64::consts::PI;
-use std::path::Path;
+use std::sync::LazyLock;
 
 use crate::common::Budget;
-use psmrt::engine::{Coupled, EngineName, open};
+use crate::scenes::{saved, scene, three_grains};
+use psmrt::engine::{EngineName, open};
 use psmrt::output::grain_means;
 use psmrt::scene::{FreePart, Scene};
 use psmrt_reference::coupling::{Gravity, InternalFluid};
@@ -14,40 +15,9 @@ use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::Vec3;
 
 /// Three grains, of which one is held and one is led, in a box of all kinds of faces.
-const SCENE: &str = r#"
-[domain]
-cells = [20, 12, 16]
-dx = 4e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-5
-[time]
-tau = 0.8
-[faces]
-y_low.kind = "free_slip"
-y_high.kind = "pressure"
-y_high.pressure = 0.0
-z_low.kind = "wall"
-z_high = { kind = "wall", velocity = [1e-2, 0.0, 0.0] }
-[[grains]]
-kind = "sphere"
-centre = [3.4e-4, 2.4e-4, 2.2e-4]
-diameter = 2e-4
-density = 2500.0
-motion = "free"
-velocity = [0.0, 0.0, -0.02]
-[[grains]]
-kind = "sphere"
-centre = [3.2e-4, 2.4e-4, 0.6e-4]
-diameter = 1.2e-4
-[[grains]]
-kind = "sphere"
-centre = [6.4e-4, 2.4e-4, 4e-4]
-diameter = 1.2e-4
-motion = "prescribed"
-velocity = [0.0, 0.01, 0.0]
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
+static SCENE: LazyLock<String> = LazyLock::new(|| {
+    three_grains(
+        r#"
 [contact]
 duration = 2e-4
 restitution = 0.7
@@ -56,14 +26,9 @@ tangential_ratio = 0.25
 rolling_resistance = 0.1
 [coupling]
 average_loads = true
-[stop]
-steps = 60
-"#;
-
-fn scene(text: &str) -> Scene {
-    Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), Path::new("."), &[])
-        .unwrap_or_else(|error| panic!("{error}"))
-}
+"#,
+    )
+});
 
 fn part(text: &str) -> (Scene, FreePart) {
     let scene = scene(text);
@@ -78,7 +43,7 @@ fn assert_close(found: f64, wanted: f64) {
 
 #[test]
 fn keys_in_si_units_become_the_law_that_they_describe() {
-    let (scene, part) = part(SCENE);
+    let (scene, part) = part(&SCENE);
     let units = &scene.units;
     // Mass of the free grain, kg, and what two of them and a wall must do.
     let mass = 2500.0 * PI / 6.0 * 2e-4_f64.powi(3);
@@ -136,7 +101,7 @@ fn gravity_as_a_body_force_acts_on_the_fluid_too() {
 
 #[test]
 fn all_faces_but_periodic_ones_hold_free_grains_back() {
-    let (_, part) = part(SCENE);
+    let (_, part) = part(&SCENE);
     let normals: Vec<_> = part.planes.iter().map(|plane| <[f64; 3]>::from(plane.normal)).collect();
     let wanted = [[0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
     assert_eq!(normals, wanted);
@@ -149,7 +114,7 @@ fn all_faces_but_periodic_ones_hold_free_grains_back() {
 
 #[test]
 fn a_mirror_plane_acts_on_a_grain_as_its_mirror_image_does() {
-    let (_, part) = part(SCENE);
+    let (_, part) = part(&SCENE);
     let grain = Grain { held: false, position: Vec3::new(8.0, 2.51, 8.0), ..part.grains[0] }
         .moving(Vec3::new(0.01, -0.03, 0.005))
         .spinning(Vec3::new(0.002, 0.0, -0.003));
@@ -183,7 +148,7 @@ fn a_mirror_plane_acts_on_a_grain_as_its_mirror_image_does() {
 #[test]
 fn fixed_prescribed_and_free_grains_live_in_one_scene() {
     let mut budget = Budget::oracle(230_400);
-    let scene = scene(SCENE);
+    let scene = scene(&SCENE);
     let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     budget.spend(60 * scene.setup.domain.cell_count() as u64);
     engine.step(60).unwrap();
@@ -222,39 +187,30 @@ fn an_engine_goes_on_bit_for_bit_from_what_it_saved_during_contacts() {
         first.step(16).unwrap();
         let state = first.free_grains().unwrap().state();
         assert!(state.pair_contacts.iter().any(|c| c.memory.spring != Vec3::zeros()), "contact");
-        let mut saved = Vec::new();
-        first.save(&mut saved).unwrap();
-        second.load(&mut saved.as_slice()).unwrap();
-        let mut again = Vec::new();
-        second.save(&mut again).unwrap();
-        assert!(saved == again, "what is read is what was written");
+        let saved_first = saved(&first);
+        second.load(&mut saved_first.as_slice()).unwrap();
+        assert!(saved_first == saved(&second), "what is read is what was written");
         second.step(44).unwrap();
-        let bytes = |engine: &Coupled| {
-            let mut bytes = Vec::new();
-            engine.save(&mut bytes).unwrap();
-            bytes
-        };
-        assert!(bytes(&whole) == bytes(&second), "{kept}, {averaged}");
+        assert!(saved(&whole) == saved(&second), "{kept}, {averaged}");
     }
 }
 
 #[test]
 fn a_saved_state_of_other_grains_is_refused() {
     let scene_of = |text: &str| open(EngineName::Reference, &scene(text), None, false).unwrap();
-    let mut saved = Vec::new();
-    scene_of(SCENE).save(&mut saved).unwrap();
+    let saved = saved(&scene_of(&SCENE));
     let fourth = "[[grains]]\nkind = \"sphere\"\ncentre = [6e-4, 2.4e-4, 1e-4]\ndiameter = 1e-4\n";
     let mut other = scene_of(&SCENE.replace("[gravity]", &format!("{fourth}[gravity]")));
     let said = other.load(&mut saved.as_slice()).unwrap_err().to_string();
     assert!(said.contains("3 grains, the scene 4"), "{said}");
     // Cut off, or with a contact of a grain that is not there.
-    assert!(scene_of(SCENE).load(&mut &saved[..saved.len() - 9]).is_err());
+    assert!(scene_of(&SCENE).load(&mut &saved[..saved.len() - 9]).is_err());
 }
 
 #[test]
 fn means_over_the_free_grains_are_those_of_the_grains() {
     let mut budget = Budget::oracle(100_000);
-    let scene = scene(SCENE);
+    let scene = scene(&SCENE);
     let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     budget.spend(20 * scene.setup.domain.cell_count() as u64);
     engine.step(20).unwrap();

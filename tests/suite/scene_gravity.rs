@@ -2,48 +2,25 @@
 //! and that the columns of loads add up to the driving force.
 
 use std::f64::consts::PI;
-use std::path::Path;
+use std::sync::LazyLock;
 
 use crate::common::Budget;
+use crate::scenes::{GRAVITY, free_sphere, read, scene, water};
 use psmrt::advice::estimate::warnings;
 use psmrt::engine::{EngineName, open};
 use psmrt::output::loads::load_rows;
-use psmrt::scene::Scene;
 use psmrt_reference::coupling::Gravity;
 use psmrt_reference::lattice::Vec3;
 
 /// A grain in a cube that is periodic in all directions.
-const FALLING: &str = r#"
-[domain]
-cells = [16, 16, 16]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
-[gravity]
-acceleration = [0.0, 0.0, -9.81]
-[[grains]]
-kind = "sphere"
-centre = [8e-5, 8e-5, 8e-5]
-diameter = 8e-5
-density = 2650.0
-motion = "free"
-[stop]
-steps = 100
-"#;
+static FALLING: LazyLock<String> = LazyLock::new(|| {
+    let grain = free_sphere("[8e-5, 8e-5, 8e-5]", "8e-5", "2650.0");
+    water([16, 16, 16], 1e-5, &format!("{GRAVITY}{grain}[stop]\nsteps = 100\n"))
+});
 
 /// A simple-cubic array of fixed spheres that a body force drives.
-const ARRAY: &str = r#"
-[domain]
-cells = [8, 8, 8]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+static ARRAY: LazyLock<String> = LazyLock::new(|| {
+    let rest = r#"
 [body_force]
 acceleration = [0.1, 0.0, 0.0]
 [[grains]]
@@ -53,15 +30,8 @@ diameter = 6e-5
 [stop]
 steps = 100
 "#;
-
-fn load(text: &str) -> Result<Scene, String> {
-    Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), Path::new("."), &[])
-        .map_err(|error| error.to_string())
-}
-
-fn scene(text: &str) -> Scene {
-    load(text).unwrap_or_else(|error| panic!("{error}"))
-}
+    water([8, 8, 8], 1e-5, rest)
+});
 
 fn balanced() -> String {
     FALLING.replace("-9.81]", "-9.81]\nbalance = true")
@@ -123,19 +93,19 @@ fn balance_where_something_holds_up_the_grains_is_refused_with_a_remedy() {
         (balanced() + push, "[body_force]"),
         (balanced().replace("balance", "form = \"body_force\"\nbalance"), "reduced"),
     ] {
-        let message = load(&text).unwrap_err();
+        let message = read(&text).unwrap_err();
         assert!(message.contains("gravity.balance"), "{message}");
         assert!(message.contains(words) && message.contains("remove"), "{message}");
     }
     // Across gravity mirrors hold nothing up.
     let sides = "[faces]\nx_low.kind = \"free_slip\"\nx_high.kind = \"free_slip\"\n";
-    assert!(load(&(balanced() + sides)).is_ok());
+    assert!(read(&(balanced() + sides)).is_ok());
 }
 
 #[test]
 fn force_and_displaced_force_of_a_record_of_loads_add_up_to_the_driving_force() {
     let mut budget = Budget::oracle(600_000);
-    let scene = scene(ARRAY);
+    let scene = scene(&ARRAY);
     let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     budget.spend(1000 * 512);
     engine.step(1000).unwrap();

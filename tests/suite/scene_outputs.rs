@@ -6,16 +6,10 @@ use std::process::Command;
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
+use crate::scenes::{free_sphere, water};
 
-const SCENE: &str = r#"
-[domain]
-cells = [6, 5, 4]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+fn scene() -> String {
+    let rest = r#"
 [faces]
 z_low.kind = "wall"
 z_high = { kind = "wall", velocity = [1e-3, 0.0, 0.0] }
@@ -23,12 +17,6 @@ z_high = { kind = "wall", velocity = [1e-3, 0.0, 0.0] }
 kind = "sphere"
 centre = [3e-4, 2e-4, 2e-4]
 diameter = 2.5e-4
-[[grains]]
-kind = "sphere"
-centre = [5.99e-4, 4e-4, 2.9e-4]
-diameter = 2.1e-4
-density = 2000.0
-motion = "free"
 [[records]]
 name = "fields"
 kind = "fields"
@@ -41,10 +29,13 @@ every_steps = 20
 [stop]
 steps = 40
 "#;
+    let free = free_sphere("[5.99e-4, 4e-4, 2.9e-4]", "2.1e-4", "2000.0");
+    water([6, 5, 4], 1e-4, &format!("{rest}{free}"))
+}
 
 fn run(folder: &Folder) -> PathBuf {
     Budget::oracle(4_800).spend(40 * 6 * 5 * 4);
-    let scene = folder.write("scene.toml", SCENE);
+    let scene = folder.write("scene.toml", scene());
     let out = folder.path("out");
     let output = psmrt(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));

@@ -5,6 +5,8 @@ use std::fmt::Write;
 use proptest::prelude::*;
 use psmrt::scene::Scene;
 
+use crate::scenes::water;
+
 const DX: f64 = 1e-5;
 
 /// A scene in a box of `cells`, periodic along x, with grains at `balls` (centres and diameters in cells)
@@ -18,14 +20,12 @@ fn load(cells: [usize; 3], balls: &[([f64; 3], f64)]) -> Result<Scene, String> {
     std::fs::write(folder.path().join("grains.csv"), list).unwrap();
     let walls: String =
         ["y_low", "y_high", "z_low", "z_high"].map(|f| format!("{f}.kind = \"wall\"\n")).concat();
-    let text = format!(
-        "[domain]\ncells = {cells:?}\ndx = {DX:e}\n[fluid]\ndensity = 1000.0\n\
-         kinematic_viscosity = 1e-6\n[time]\ntau = 0.8\n[faces]\n{walls}[[grains]]\nkind = \"csv\"\n\
-         file = \"grains.csv\"\n[[records]]\nname = \"box\"\nkind = \"box\"\nevery_steps = 1\n\
-         [stop]\nsteps = 1\n"
+    let rest = format!(
+        "[faces]\n{walls}[[grains]]\nkind = \"csv\"\nfile = \"grains.csv\"\n[[records]]\n\
+         name = \"box\"\nkind = \"box\"\nevery_steps = 1\n[stop]\nsteps = 1\n"
     );
-    Scene::from_bytes("scene.toml", text.into_bytes(), folder.path(), &[])
-        .map_err(|error| error.to_string())
+    let text = water(cells, DX, &rest).into_bytes();
+    Scene::from_bytes("scene.toml", text, folder.path(), &[]).map_err(|error| error.to_string())
 }
 
 /// By how much the deepest pair overlaps, in diameters of its smaller grain, counted pair by pair and

@@ -1,24 +1,18 @@
 //! Prescribed spheres go straight on: what they run into is known beforehand and stops the run there.
 
 use std::path::Path;
+use std::sync::LazyLock;
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
 use crate::common::random::Random;
+use crate::scenes::{scene, water};
 use psmrt::courses::{Lookout, Meeting, Obstacle, leavings};
 use psmrt::engine::{EngineName, open};
-use psmrt::scene::Scene;
 
 /// A towed sphere of 8 cells, 2 cells before the end of a box of 16.
-const TOWED: &str = r#"
-[domain]
-cells = [16, 12, 12]
-dx = 1e-5
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+static TOWED: LazyLock<String> = LazyLock::new(|| {
+    let rest = r#"
 [faces]
 x_low.kind = "wall"
 x_high.kind = "wall"
@@ -35,11 +29,8 @@ every_steps = 20
 [stop]
 steps = 90
 "#;
-
-fn scene(text: &str) -> Scene {
-    Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), Path::new("."), &[])
-        .unwrap_or_else(|error| panic!("{error}"))
-}
+    water([16, 12, 12], 1e-5, rest)
+});
 
 fn meeting(text: &str) -> Option<Meeting> {
     let scene = scene(text);
@@ -54,7 +45,7 @@ const STEP: u64 = 70;
 fn a_towed_sphere_stops_the_run_at_the_step_at_which_it_is_in_the_wall() {
     let mut budget = Budget::oracle(330_000);
     let folder = Folder::new("towed");
-    let path = folder.write("scene.toml", TOWED);
+    let path = folder.write("scene.toml", &*TOWED);
     let out = folder.path("out");
     let run = |more: &[&str], out: &Path| {
         let paths = [path.to_str().unwrap(), "--out", out.to_str().unwrap()];
@@ -162,15 +153,7 @@ fn overlap(
 #[test]
 fn engine_moves_a_prescribed_sphere_by_its_velocity_each_step() {
     // dx = 1e-4 m and tau = 0.8 (nu = 0.1) with 1e-6 m2/s make steps of 1e-3 s: 0.01 m/s are 0.1 cells per step.
-    let text = r#"
-[domain]
-cells = [16, 12, 12]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.8
+    let grain = r#"
 [[grains]]
 kind = "sphere"
 centre = [5e-4, 6e-4, 6e-4]
@@ -180,9 +163,7 @@ velocity = [0.01, 0.0, -0.005]
 [stop]
 steps = 10
 "#;
-    let path = std::path::Path::new(".");
-    let scene =
-        psmrt::scene::Scene::from_bytes("scene.toml", text.as_bytes().to_vec(), path, &[]).unwrap();
+    let scene = scene(&water([16, 12, 12], 1e-4, grain));
     let mut engine = open(EngineName::Reference, &scene, None, false).unwrap();
     engine.step(10).unwrap();
     let centre = engine.solids()[0].centre;

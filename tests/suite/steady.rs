@@ -2,9 +2,9 @@
 //! taken.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use crate::common::Budget;
+use crate::scenes::{scene, water};
 use psmrt::checkpoint;
 use psmrt::engine::{EngineName, open};
 use psmrt::output::folder::RunFolder;
@@ -18,16 +18,8 @@ const GAP: f64 = 8.0;
 /// Flow between plates from rest, driven by a body force, a row every `every` steps. The rates are those that
 /// put the walls exactly half-way, so that the final flow is known to round-off.
 fn channel(every: u64, tolerance: f64) -> Scene {
-    let text = format!(
+    let rest = format!(
         r#"
-[domain]
-cells = [1, 8, 1]
-dx = 1e-4
-[fluid]
-density = 1000.0
-kinematic_viscosity = 1e-6
-[time]
-tau = 0.6
 [collision]
 rates = "magic"
 magic = 0.1875
@@ -45,7 +37,7 @@ steps = 20000
 steady = {{ record = "b", column = "superficial_velocity_x", tolerance = {tolerance:e} }}
 "#
     );
-    Scene::from_bytes("channel", text.into_bytes(), Path::new(""), &[]).unwrap()
+    scene(&water([1, 8, 1], 1e-4, &rest).replace("tau = 0.8", "tau = 0.6"))
 }
 
 struct GoOn;
