@@ -18,7 +18,7 @@ use crate::advice::plan::options::{
 use crate::advice::plan::predict::{Outside, percent};
 use crate::advice::plan::write::text;
 use crate::advice::tradeoff::cost::mrt_over_srt;
-use crate::advice::tradeoff::model::LEAST_ERROR;
+use crate::advice::tradeoff::model::{LEAST_ERROR, SolidMethod};
 use crate::advice::tradeoff::models::Models;
 use crate::advice::tradeoff::support;
 use crate::engine::EngineName;
@@ -98,8 +98,10 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     let wanted = request.error.0;
     let models = Models::committed()?;
     // Whether there is anything to plan with is known before an engine has made a step.
-    let unmeasured: Vec<Speed> =
-        offered(&scene).into_iter().map(|engine| Speed { engine, mrt: 1.0, srt: 1.0 }).collect();
+    let unmeasured: Vec<Speed> = offered(&scene, request)
+        .into_iter()
+        .map(|engine| Speed { engine, mrt: 1.0, srt: 1.0 })
+        .collect();
     if options(&facts, models, &unmeasured).is_empty() {
         let now = now(&scene, &facts, models, &unmeasured);
         return Err(unreachable_error(&[], wanted, (&facts, models), &now));
@@ -120,7 +122,12 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     let Some(best) = cheapest(&all, wanted) else {
         return Err(unreachable_error(&all, wanted, (&facts, models), &now));
     };
-    let alternatives = alternatives(&all, best, wanted);
+    let better = facts.better_operator().map(|other| {
+        let can = speeds.iter().filter(|speed| is_open_to(request, speed.engine, other));
+        let can: Vec<Speed> = can.cloned().collect();
+        (other, options(&facts.with(other), models, &can))
+    });
+    let alternatives = alternatives(&all, better.as_ref(), best, wanted);
     let evidence = evidence(&facts, models, best)?;
     if request.json {
         let alternatives: Vec<Value> = alternatives
@@ -171,19 +178,25 @@ fn now_words(now: &Result<PlanOption, Outside>) -> String {
 }
 
 /// The engines that may be proposed: the CPU engine, the kernel on a GPU in hardware, and whatever the scene asks for.
-fn offered(scene: &Scene) -> Vec<EngineName> {
+fn offered(scene: &Scene, request: &PlanRequest) -> Vec<EngineName> {
     let mut offered = vec![EngineName::cpu(scene.precision)];
     if adapters().iter().any(|adapter| !adapter.is_software()) {
         offered.push(EngineName::Wgpu);
     }
     offered.extend(EngineName::of(scene).filter(|own| !offered.contains(own)));
+    // Not every engine moves free grains with every operator.
+    offered.retain(|engine| {
+        engine_changes(Some(engine.word()), None).is_ok_and(|changes| {
+            Scene::load(&request.scene, &[request.set.clone(), changes].concat()).is_ok()
+        })
+    });
     offered
 }
 
 /// Their speed on this scene and machine.
 fn speeds(scene: &Scene, request: &PlanRequest) -> Result<Vec<Speed>, CommandError> {
     let mut speeds = Vec::new();
-    for name in offered(scene) {
+    for name in offered(scene, request) {
         let mut set = request.set.clone();
         set.extend(engine_changes(Some(name.word()), None)?);
         let scene = Scene::load(&request.scene, &set)?;
@@ -228,9 +241,22 @@ fn unreachable_error(
     ))
 }
 
-/// What lies around a plan.
+/// Whether an engine has another operator of solid cells for a scene, and nothing else in the scene forbids it.
+fn is_open_to(request: &PlanRequest, engine: EngineName, other: SolidMethod) -> bool {
+    // Every engine has it for grains that are not free.
+    if other == SolidMethod::Graded {
+        return true;
+    }
+    let mut set = request.set.clone();
+    set.push(format!("solid.operator=\"{}\"", other.operator().word()));
+    engine_changes(Some(engine.word()), None)
+        .is_ok_and(|changes| Scene::load(&request.scene, &[set, changes].concat()).is_ok())
+}
+
+/// What lies around a plan; `better`: the options with an operator of solid cells that is more accurate.
 fn alternatives<'a>(
     all: &'a [PlanOption],
+    better: Option<&'a (SolidMethod, Vec<PlanOption>)>,
     best: &PlanOption,
     wanted: f64,
 ) -> Vec<(String, Option<&'a PlanOption>)> {
@@ -238,6 +264,12 @@ fn alternatives<'a>(
         ("twice as fast".to_owned(), most_accurate(all, 0.5 * best.seconds)),
         ("half the error".to_owned(), cheapest(all, 0.5 * wanted)),
     ];
+    if let Some((other, all)) = better {
+        let word = other.operator().word();
+        // A step is taken for as long with it.
+        let same = most_accurate(all, best.seconds * (1.0 + 1e-9));
+        found.push((format!("with {word}"), same));
+    }
     for collision in Preset::ALL.into_iter().filter(|&other| other != best.collision) {
         let own: Vec<&PlanOption> =
             all.iter().filter(|option| option.collision == collision).collect();

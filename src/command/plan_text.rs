@@ -74,8 +74,12 @@ pub(super) fn print(
         line(what, *option);
     }
     let [nx, ny, nz] = best.cells;
+    let operator = match facts.limit {
+        Limit::Grains { .. } => format!(", solid.operator = {}", best.solid.operator().word()),
+        Limit::Plates { .. } | Limit::Shear { .. } | Limit::Duct { .. } => String::new(),
+    };
     say(&format!(
-        "\nthe plan: dx = {:.4e} m, {nx} x {ny} x {nz} cells, tau = {}",
+        "\nthe plan: dx = {:.4e} m, {nx} x {ny} x {nz} cells, tau = {}{operator}",
         best.si_dx, best.tau
     ));
     say(&format!("error: of {}; times are upper limits", subject(scene, &facts.limit)));

@@ -154,6 +154,18 @@ pub enum OperatorName {
     GradedViscosity,
 }
 
+impl OperatorName {
+    /// As scenes spell it.
+    pub fn word(self) -> &'static str {
+        match self {
+            OperatorName::BounceBack => "bounce_back",
+            OperatorName::Superposition => "superposition",
+            OperatorName::FullBounceBack => "full_bounce_back",
+            OperatorName::GradedViscosity => "graded_viscosity",
+        }
+    }
+}
+
 /// How the solid fraction of a cell is found.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]

@@ -183,6 +183,54 @@ fn planned_scene_is_the_same_in_si_units() {
 }
 
 #[test]
+fn every_operator_is_planned_with_and_a_plan_keeps_the_one_of_its_scene() {
+    let bed = "golden/sphere_arrays/scene.toml";
+    let set = |operator: &str| format!("solid.operator=\"{operator}\"");
+    for (scene, operator) in [
+        (bed, "bounce_back"),
+        (bed, "superposition"),
+        (bed, "full_bounce_back"),
+        (bed, "graded_viscosity"),
+        (SETTLING, "full_bounce_back"),
+    ] {
+        let scene = Scene::load(Path::new(scene), &[set(operator)]).unwrap();
+        let facts = Facts::of(&scene).unwrap().unwrap();
+        let options = options(&facts, models(), &speeds()[..1]);
+        let best = cheapest(&options, 0.2).unwrap_or_else(|| panic!("{operator}: no plan"));
+        let written = text(&scene, Path::new(""), best, "").unwrap();
+        assert!(written.contains(&format!("operator = \"{operator}\"")), "{written}");
+        let again = Scene::from_bytes("planned", written.into_bytes(), Path::new(""), &[]).unwrap();
+        let phases = [&scene, &again].map(|scene| scene.setup.solid_phase.as_ref().unwrap());
+        assert_eq!(phases[0].operator, phases[1].operator);
+        assert_eq!(phases[0].weighting, phases[1].weighting);
+    }
+}
+
+#[test]
+fn a_plan_says_what_the_more_accurate_operator_would_buy() {
+    let usual = ["--set", "solid.operator=\"bounce_back\""];
+    let bed = psmrt(
+        &[&["plan", "golden/sphere_arrays/scene.toml", "--error", "10%"][..], &usual].concat(),
+    );
+    let said = stdout(&bed);
+    assert!(said.contains("with graded_viscosity"), "{said} {}", stderr(&bed));
+    let grain = psmrt(&[&["plan", SETTLING, "--error", "10%"][..], &usual].concat());
+    let said = stdout(&grain);
+    assert!(said.contains("with full_bounce_back"), "{said} {}", stderr(&grain));
+    let graded = ["--set", "solid.operator=\"graded_viscosity\""];
+    let bed = psmrt(
+        &[&["plan", "golden/sphere_arrays/scene.toml", "--error", "10%"][..], &graded].concat(),
+    );
+    let said = stdout(&bed);
+    assert!(
+        bed.status.success() && !said.contains("with graded_viscosity"),
+        "{said} {}",
+        stderr(&bed)
+    );
+    assert!(said.contains("golden/tradeoff/operators.csv"), "what it rests on: {said}");
+}
+
+#[test]
 fn planned_grain_settles_as_predicted() {
     let mut budget = Budget::oracle(14_000_000);
     // 4 x 4 x 16 of 8 cells a diameter: a grid of any number of cells per diameter fills it.

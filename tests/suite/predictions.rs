@@ -241,7 +241,7 @@ fn sand(cells_across: f64, tau: f64) -> Scene {
         "[domain]\nsize = [{0:e}, {0:e}, {0:e}]\ndx = {1:e}\n[fluid]\ndensity = 1000.0\n\
          kinematic_viscosity = 1e-6\n[time]\ntau = {tau}\n[stop]\nsteps = 10\n[body_force]\n\
          acceleration = [1e-2, 0.0, 0.0]\n[[grains]]\nkind = \"array\"\nlattice = \"fcc\"\n\
-         solid_fraction = 0.599\ncounts = [3, 3, 3]\n",
+         solid_fraction = 0.599\ncounts = [3, 3, 3]\n[solid]\noperator = \"bounce_back\"\n",
         3.0 * side,
         3.0 * side / cells
     ))

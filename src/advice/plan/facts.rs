@@ -5,7 +5,6 @@ use psmrt_reference::coupling::InternalFluid;
 use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::lattice::viscosity;
-use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 
 use super::drag::{Drag, drag};
 use super::duct::Duct;
@@ -113,27 +112,11 @@ impl Facts {
             Limit::Grains { cells: smallest, drag: factor, because }
         };
         let phase = setup.solid_phase.as_ref().map(|phase| (phase.weighting, phase.operator));
-        let solid = match phase.unwrap_or_default() {
-            (Weighting::NobleTorczynski, SolidOperator::NonEquilibriumBounceBack) => {
-                SolidMethod::Usual
-            }
-            (Weighting::NobleTorczynski, SolidOperator::Superposition) => {
-                SolidMethod::Superposition
-            }
-            (Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack) => {
-                SolidMethod::SolidFraction
-            }
-            (Weighting::Graded, _)
-            | (_, SolidOperator::FullBounceBack | SolidOperator::GradedViscosity) => {
-                let why = "it has the operator full_bounce_back or graded_viscosity, for which no error model has been \
-                           fitted";
-                return Ok(Err(why.to_owned()));
-            }
-            (Weighting::SolidFraction, SolidOperator::Superposition) => {
-                let why = "it has both B = epsilon and the superposition operator, which no run of the \
-                           evidence has";
-                return Ok(Err(why.to_owned()));
-            }
+        let (weighting, operator) = phase.unwrap_or_default();
+        let Some(solid) = SolidMethod::of(weighting, operator) else {
+            let why = "it has a weight B = epsilon and an operator of solid cells that no run of the evidence has \
+                       together";
+            return Ok(Err(why.to_owned()));
         };
         Ok(Ok(Facts {
             limit,
@@ -151,6 +134,28 @@ impl Facts {
             lightest: lightest(scene),
             si_time: scene.stop.steps as f64 * units.si_dt,
         }))
+    }
+}
+
+impl Facts {
+    /// The same scene with another operator of solid cells.
+    pub fn with(&self, solid: SolidMethod) -> Self {
+        let mapped = self.mapped.map(|(measured, si_velocity)| match measured {
+            Measured::Bed(_) => (Measured::Bed(solid.weighting()), si_velocity),
+            Measured::Fluid => (measured, si_velocity),
+        });
+        Facts { solid, mapped, ..self.clone() }
+    }
+
+    /// The operator that is more accurate for grains like these, if the scene has another one. Graded viscosity is not for
+    /// free grains.
+    pub fn better_operator(&self) -> Option<SolidMethod> {
+        let best = match (&self.limit, self.lightest) {
+            (Limit::Grains { .. }, None) => SolidMethod::Graded,
+            (Limit::Grains { .. }, Some(_)) => SolidMethod::FullBounceBack,
+            _ => return None,
+        };
+        (best != self.solid).then_some(best)
     }
 }
 

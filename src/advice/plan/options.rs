@@ -5,6 +5,7 @@ use psmrt_reference::lattice::viscosity;
 
 use super::facts::{Facts, Limit};
 use super::predict::{Outside, Parameters, WALL_CELLS, is_heavy_enough, predict};
+use crate::advice::tradeoff::model::SolidMethod;
 use crate::advice::tradeoff::models::Models;
 use crate::engine::EngineName;
 
@@ -41,6 +42,8 @@ pub struct PlanOption {
     pub tau: f64,
     /// Collision.
     pub collision: Preset,
+    /// How solid cells collide, where there are grains.
+    pub solid: SolidMethod,
     /// Engine, with the precision that goes with it.
     pub engine: EngineName,
     /// Largest velocity in cells per step, if it is known.
@@ -191,6 +194,7 @@ fn option(
         resolution,
         tau,
         collision,
+        solid: facts.solid,
         engine: speed.engine,
         velocity,
         steps,

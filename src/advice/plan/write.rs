@@ -6,6 +6,7 @@ use std::path::Path;
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::options::PlanOption;
+use crate::advice::tradeoff::model::SolidMethod;
 use crate::engine::EngineName;
 use crate::scene::Scene;
 
@@ -35,6 +36,14 @@ pub fn text(
             let collision = section(&mut document, "collision");
             collision.insert("rates", value("magic"));
             collision.insert("magic", value(3.0 / 16.0));
+        }
+    }
+    if scene.setup.solid_phase.is_some() {
+        // Named, so that the plan stays what it is whatever is chosen where no operator is named.
+        let solid = section(&mut document, "solid");
+        solid.insert("operator", value(option.solid.operator().word()));
+        if option.solid == SolidMethod::Graded {
+            solid.remove("weighting");
         }
     }
     let engine = section(&mut document, "engine");

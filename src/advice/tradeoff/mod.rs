@@ -3,7 +3,7 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `model.rs`, `model_eps.rs`, `model_low.rs` | error models |
+//! | `model.rs`, `model_eps.rs`, `model_low.rs`, `model_tight.rs` | error models |
 //! | `models.rs` | all of them together |
 //! | `runs.rs` | runs with known answers |
 //! | `cost.rs` | what a collision costs |
@@ -13,6 +13,7 @@ pub mod cost;
 pub mod model;
 pub mod model_eps;
 pub mod model_low;
+pub mod model_tight;
 pub mod models;
 pub mod runs;
 pub mod support;

@@ -11,7 +11,7 @@
 //! ```
 //!
 //! The superposition operator has its own numbers in the same form. The weight `B = ε` errs in two ways of
-//! opposite sign (`model_eps.rs`).
+//! opposite sign (`model_eps.rs`), and so do the operators that let no fluid through (`model_tight.rs`).
 //!
 //! **Plates.** Half-way bounce-back slips by an amount that is known in closed form; the rest is of second
 //! order in the lattice velocity (d'Humières' rates treat the third-order moments as if the flow stood
@@ -25,10 +25,12 @@
 //! that of geometries that the model has not seen (each is left out in turn).
 
 use psmrt_reference::collision::{Collision, Preset};
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::rates::Rates;
 
 use crate::advice::coefficients::numbers;
 use crate::exact::magic_parameter;
+use crate::scene::format_grains::OperatorName;
 use crate::table::TableError;
 
 /// Below this the models say nothing: errors are then as large as what the place of a grain on the grid
@@ -51,22 +53,89 @@ pub enum SolidMethod {
     Superposition,
     /// The weight `B = ε`.
     SolidFraction,
+    /// Full bounce-back, with Noble and Torczynski's weight.
+    FullBounceBack,
+    /// Graded viscosity, with its own weight.
+    Graded,
 }
 
 impl SolidMethod {
+    /// All of them.
+    pub const ALL: [SolidMethod; 5] = [
+        SolidMethod::Usual,
+        SolidMethod::Superposition,
+        SolidMethod::SolidFraction,
+        SolidMethod::FullBounceBack,
+        SolidMethod::Graded,
+    ];
+
     /// As tables spell it.
     pub fn word(self) -> &'static str {
         match self {
             SolidMethod::Usual => "NT",
             SolidMethod::Superposition => "superposition",
             SolidMethod::SolidFraction => "eps",
+            SolidMethod::FullBounceBack => "full_bounce_back",
+            SolidMethod::Graded => "graded",
+        }
+    }
+
+    /// That of a weight and an operator; `None` for two that no run of the evidence has together.
+    pub fn of(weighting: Weighting, operator: SolidOperator) -> Option<Self> {
+        match (weighting, operator) {
+            (Weighting::NobleTorczynski, SolidOperator::NonEquilibriumBounceBack) => {
+                Some(SolidMethod::Usual)
+            }
+            (Weighting::NobleTorczynski, SolidOperator::Superposition) => {
+                Some(SolidMethod::Superposition)
+            }
+            (Weighting::NobleTorczynski, SolidOperator::FullBounceBack) => {
+                Some(SolidMethod::FullBounceBack)
+            }
+            (Weighting::SolidFraction, SolidOperator::NonEquilibriumBounceBack) => {
+                Some(SolidMethod::SolidFraction)
+            }
+            (Weighting::Graded, SolidOperator::GradedViscosity) => Some(SolidMethod::Graded),
+            (Weighting::SolidFraction | Weighting::Graded, _)
+            | (_, SolidOperator::GradedViscosity) => None,
+        }
+    }
+
+    /// Its weight.
+    pub fn weighting(self) -> Weighting {
+        match self {
+            SolidMethod::Usual | SolidMethod::Superposition | SolidMethod::FullBounceBack => {
+                Weighting::NobleTorczynski
+            }
+            SolidMethod::SolidFraction => Weighting::SolidFraction,
+            SolidMethod::Graded => Weighting::Graded,
+        }
+    }
+
+    /// Its operator, as the scene key `solid.operator` has it.
+    pub fn operator(self) -> OperatorName {
+        match self {
+            SolidMethod::Usual | SolidMethod::SolidFraction => OperatorName::BounceBack,
+            SolidMethod::Superposition => OperatorName::Superposition,
+            SolidMethod::FullBounceBack => OperatorName::FullBounceBack,
+            SolidMethod::Graded => OperatorName::GradedViscosity,
+        }
+    }
+
+    /// In words, as documents have it.
+    pub fn title(self) -> &'static str {
+        match self {
+            SolidMethod::Usual => "non-equilibrium bounce-back",
+            SolidMethod::Superposition => "superposition",
+            SolidMethod::SolidFraction => "the weight B = epsilon",
+            SolidMethod::FullBounceBack => "full bounce-back",
+            SolidMethod::Graded => "graded viscosity",
         }
     }
 
     /// What a word of a table stands for.
     pub fn from_word(word: &str) -> Option<Self> {
-        let all = [SolidMethod::Usual, SolidMethod::Superposition, SolidMethod::SolidFraction];
-        all.into_iter().find(|method| method.word() == word)
+        Self::ALL.into_iter().find(|method| method.word() == word)
     }
 }
 

@@ -9,6 +9,7 @@ use super::model::{
 };
 use super::model_eps::EpsModel;
 use super::model_low::LowModel;
+use super::model_tight::{TIGHT, TightModel};
 use crate::advice::coefficients::numbers;
 use crate::table::TableError;
 
@@ -21,6 +22,8 @@ pub struct Models {
     pub eps: Option<EpsModel>,
     /// With grains, d'Humières' rates and relaxation times below those of `grains`.
     pub low: Option<LowModel>,
+    /// With grains and operators that let no fluid through.
+    pub tight: Vec<TightModel>,
     /// Between plates; none for the magic rates, which are exact there.
     pub walls: Vec<WallModel>,
 }
@@ -32,7 +35,13 @@ impl Models {
         if let Some(models) = MODELS.get() {
             return Ok(models);
         }
-        let mut models = Models { grains: Vec::new(), eps: None, low: None, walls: Vec::new() };
+        let mut models = Models {
+            grains: Vec::new(),
+            eps: None,
+            low: None,
+            tight: Vec::new(),
+            walls: Vec::new(),
+        };
         for (collision, solid) in METHODS {
             let of = method(collision, solid);
             let (parameters, evidence) = (numbers("grains", &of)?, Evidence::committed(&of)?);
@@ -40,6 +49,9 @@ impl Models {
         }
         models.eps = Some(EpsModel::committed()?);
         models.low = Some(LowModel::committed()?);
+        for (collision, solid) in TIGHT {
+            models.tight.push(TightModel::committed(collision, solid)?);
+        }
         for collision in [Preset::Srt, Preset::DHumieres] {
             let [s, c, scatter, count] = numbers("plates", collision.word())?;
             #[expect(
@@ -58,6 +70,11 @@ impl Models {
         self.grains.iter().find(|model| model.collision == collision && model.solid == solid)
     }
 
+    /// The model with grains of a collision of the fluid and an operator that lets no fluid through.
+    pub fn of_tight(&self, collision: Preset, solid: SolidMethod) -> Option<&TightModel> {
+        self.tight.iter().find(|model| model.collision == collision && model.solid == solid)
+    }
+
     /// The error with grains; `None` where nothing was fitted.
     pub fn with_grains(
         &self,
@@ -69,6 +86,9 @@ impl Models {
         if solid == SolidMethod::SolidFraction {
             let model = self.eps.as_ref().filter(|_| collision == Preset::DHumieres)?;
             return Some(model.prediction(d, tau, drag));
+        }
+        if matches!(solid, SolidMethod::Graded | SolidMethod::FullBounceBack) {
+            return Some(self.of_tight(collision, solid)?.prediction(d, tau, drag));
         }
         let model = self.of_grains(collision, solid)?;
         let low = self

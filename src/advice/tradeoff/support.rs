@@ -2,6 +2,7 @@
 
 use super::model::{LEAST_TAU, SolidMethod};
 use super::model_eps::EpsModel;
+use super::model_tight::TightModel;
 use super::models::Models;
 use super::runs::{GrainPoint, committed};
 use crate::advice::coefficients::numbers;
@@ -19,6 +20,9 @@ pub fn of_grains(
     tau: f64,
     drag: f64,
 ) -> Result<Vec<String>, TableError> {
+    if let Some(model) = models.of_tight(collision, solid) {
+        return of_tight(models, model, cells, tau, drag);
+    }
     let Some(model) = models.of_grains(collision, solid) else {
         return Ok(vec![format!(
             "with B = epsilon two errors of opposite sign cancel here and not there: what was left out of the \
@@ -69,6 +73,66 @@ pub fn of_grains(
         "configurations held back from the fits: {hits} of {of} within their band, and {first} of {of_first} \
          of those that the bands were widened after"
     ));
+    lines.extend(near(models, (collision, solid), cells, tau, drag)?);
+    lines.extend(beyond(drag, [light, heavy]));
+    Ok(lines)
+}
+
+/// Evidence for an error with an operator that lets no fluid through.
+fn of_tight(
+    models: &Models,
+    model: &TightModel,
+    cells: f64,
+    tau: f64,
+    drag: f64,
+) -> Result<Vec<String>, TableError> {
+    let p = &model.parameters;
+    let [[least, most], [low, high], reach @ [light, heavy]] = model.evidence.ranges;
+    let size = match model.collision {
+        Preset::Srt => format!("[{:.2} + {:.2} (tau - 1/2)^2]", p[0].exp(), p[4].exp()),
+        Preset::DHumieres | Preset::Trt => format!("{:.2} (tau - 1/2)^{:.2}", p[0].exp(), p[4]),
+    };
+    let [hits, of] = numbers("held back", "operators")?;
+    let mut lines = vec![
+        format!(
+            "{} runs of {} geometries with {} and {} (golden/tradeoff/operators.csv): {least:.1} to {most:.1} cells, tau \
+             {low} to {high}, drag {light:.2} to {heavy:.0}",
+            model.evidence.counts[0],
+            model.evidence.counts[1],
+            model.solid.title(),
+            model.collision.title()
+        ),
+        format!(
+            "ln(1 + error) = K^{:.2} {size}/d^2 - {:.2} K^{:.2}/d; 95 % of what was left out of the fit lies within {:.0} % \
+             of the first part, and 1 %",
+            p[1],
+            p[2].exp(),
+            p[3],
+            100.0 * model.share()
+        ),
+        format!("configurations held back from the fits: {hits} of {of} within their band"),
+    ];
+    lines.extend(near(models, (model.collision, model.solid), cells, tau, drag)?);
+    lines.extend(beyond(drag, reach));
+    Ok(lines)
+}
+
+/// A warning where a drag lies outside the evidence.
+fn beyond(drag: f64, [light, heavy]: [f64; 2]) -> Option<String> {
+    (!(light..=heavy).contains(&drag)).then(|| {
+        format!("warning: a drag of {drag:.2} lies outside the evidence ({light:.2} to {heavy:.0})")
+    })
+}
+
+/// The runs nearest to a prediction, a line each.
+fn near(
+    models: &Models,
+    (collision, solid): (Preset, SolidMethod),
+    cells: f64,
+    tau: f64,
+    drag: f64,
+) -> Result<Vec<String>, TableError> {
+    let mut lines = Vec::new();
     let mut points = committed()?;
     points.retain(|point| point.collision == collision && point.solid == solid);
     let distance = |point: &GrainPoint| {
@@ -89,11 +153,6 @@ pub fn of_grains(
                     .with_grains((collision, solid), point.cells, point.tau, point.drag)
                     .map_or(f64::NAN, |found| found.error),
             point.source
-        ));
-    }
-    if !(light..=heavy).contains(&drag) {
-        lines.push(format!(
-            "warning: a drag of {drag:.2} lies outside the evidence ({light:.2} to {heavy:.0})"
         ));
     }
     Ok(lines)

@@ -2,7 +2,6 @@
 //! `psmrt plan` makes.
 
 use crate::advice::estimate::warning::{Warning, warning};
-use crate::advice::estimate::warnings::graded::ENOUGH_CELLS;
 use crate::advice::plan::facts::{Facts, Limit};
 use crate::advice::plan::options::{PlanOption, Speed, as_it_is, most_accurate, options, why_none};
 use crate::advice::plan::predict::{Outside, Parameters, Predicted, percent, predict};
@@ -10,7 +9,6 @@ use crate::advice::tradeoff::models::Models;
 use crate::engine::EngineName;
 use crate::scene::{EngineKind, Scene};
 use psmrt_reference::collision::Preset;
-use psmrt_reference::partial_saturation::SolidOperator;
 
 /// A predicted error above this is warned of. Laws of the drag of beds differ by as much from each other, so
 /// that a larger one spoils what one can compare with; and of the Pareto-optimal runs
@@ -22,7 +20,7 @@ pub(crate) struct Outlook {
     /// What the scene is.
     pub facts: Facts,
     models: &'static Models,
-    collision: Preset,
+    parameters: Parameters,
     kernel: bool,
     /// What is predicted, or why nothing is.
     pub found: Result<Predicted, Outside>,
@@ -43,7 +41,7 @@ pub(crate) fn outlook(scene: &Scene) -> Option<Outlook> {
         velocity: facts.si_velocity.map(|velocity| velocity / scene.units.si_velocity()),
     };
     let found = predict(&facts, models, &parameters);
-    Some(Outlook { facts, models, collision, kernel, found })
+    Some(Outlook { facts, models, parameters, kernel, found })
 }
 
 /// What the error is one of.
@@ -84,30 +82,32 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         Err(Outside { nearest: None, .. }) => return Vec::new(),
     };
     let mut remedy = remedy(&outlook);
-    remedy += other_operator(scene, &outlook.facts);
+    remedy += &other_operator(scene, &outlook);
     vec![warning(reason, remedy)]
 }
 
-/// The operator that would be more accurate with nothing else changed, if one is known.
-fn other_operator(scene: &Scene, facts: &Facts) -> &'static str {
-    let Limit::Grains { cells, .. } = &facts.limit else { return "" };
-    let phase = scene.setup.solid_phase.as_ref();
-    let leaks = phase.is_some_and(|phase| phase.operator == SolidOperator::default());
-    let is_known =
-        Preset::of(&scene.setup.collision) == Some(Preset::DHumieres) && facts.tau <= 1.0;
-    if !leaks || !is_known {
-        return "";
+/// What the operator that is more accurate for such grains would do with nothing else changed, where that is predicted to
+/// help.
+fn other_operator(scene: &Scene, outlook: &Outlook) -> String {
+    let Outlook { facts, models, parameters, found, .. } = outlook;
+    let Some(other) = facts.better_operator() else { return String::new() };
+    // Where free grains are coupled implicitly is for the engine to say.
+    if scene.free.is_some() && scene.engine == EngineKind::Wgpu {
+        return String::new();
     }
-    match (&scene.free, scene.engine) {
-        (None, _) if *cells >= ENOUGH_CELLS => {
-            "; with fixed grains `solid.operator = \"graded_viscosity\"` was within 7 % with 8 and more cells per diameter \
-             at any relaxation time up to 1 (golden/tradeoff/operators.csv)"
-        }
-        (Some(_), engine) if engine != EngineKind::Wgpu && *cells >= 4.0 => {
-            "; a free grain of 4 to 8 cells settled within 6 % of the exact velocity with `solid.operator = \
-             \"full_bounce_back\"` at any relaxation time up to 1 (golden/tradeoff/operators.csv)"
-        }
-        _ => "",
+    let now = match found {
+        Ok(now) => now.size().0,
+        Err(outside) => outside.nearest.as_ref().map_or(f64::INFINITY, |near| near.size().0),
+    };
+    match predict(&facts.with(other), models, parameters).map(|found| found.size()) {
+        Ok((error, [low, high])) if error < now => format!(
+            "; `solid.operator = \"{}\"` makes it {} ({} to {}) with nothing else changed",
+            other.operator().word(),
+            percent(error),
+            percent(low),
+            percent(high)
+        ),
+        _ => String::new(),
     }
 }
 
@@ -152,7 +152,8 @@ const AT_MOST: f64 = 2.0 * TOO_LARGE;
 
 /// The cheapest option that causes no warning, with the scene's collision; else the most accurate.
 fn remedy(outlook: &Outlook) -> String {
-    let Outlook { facts, models, collision, kernel, .. } = outlook;
+    let Outlook { facts, models, parameters, kernel, .. } = outlook;
+    let collision = &parameters.collision;
     let engine = if *kernel { EngineName::Wgpu } else { EngineName::Cpu };
     let speed = Speed { engine, mrt: 1.0, srt: 1.0 };
     let all = options(facts, models, std::slice::from_ref(&speed));

@@ -1,5 +1,7 @@
-//! Warning of grains too small for the operator of graded viscosity.
+//! Warning of grains too small for the operator of graded viscosity, where nothing is predicted: `accuracy.rs` warns where
+//! something is.
 
+use super::accuracy::{Outlook, outlook};
 use crate::advice::estimate::spheres::spheres;
 use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
@@ -7,11 +9,18 @@ use psmrt_reference::partial_saturation::SolidOperator;
 
 /// Cells per diameter from which on the operator is within 7 % at relaxation times up to 1, with d'Humières' rates and
 /// exact coverage (golden/tradeoff/operators.csv; the report's case tradeoff judges it).
-pub(crate) const ENOUGH_CELLS: f64 = 8.0;
+const ENOUGH_CELLS: f64 = 8.0;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let operator = scene.setup.solid_phase.as_ref().map(|phase| phase.operator);
     if operator != Some(SolidOperator::GradedViscosity) {
+        return Vec::new();
+    }
+    let is_predicted = |outlook: Outlook| match outlook.found {
+        Ok(_) => true,
+        Err(outside) => outside.nearest.is_some(),
+    };
+    if outlook(scene).is_some_and(is_predicted) {
         return Vec::new();
     }
     let diameters = spheres(scene).into_iter().map(|(_, radius, _)| 2.0 * radius);

@@ -13,7 +13,7 @@ const SWEEP: &str = include_str!("../../../../golden/tradeoff/sweep.csv");
 const STUDY: &str = include_str!("../../../../golden/sphere_arrays/study.csv");
 
 /// The grids that count: coarser ones have more than one error, and finer ones cost too much to be many.
-const LEAST_CELLS: f64 = 3.9;
+pub(super) const LEAST_CELLS: f64 = 3.9;
 
 /// The drag of random beds is known to 1 % only (`golden/tradeoff/random_drag.csv`): their smaller errors say
 /// little.
@@ -22,12 +22,14 @@ const LEAST_OF_RANDOM: f64 = 0.05;
 /// Reynolds number above which inertia shows in the truth itself.
 const MOST_REYNOLDS: f64 = 0.06;
 
-/// How the solid cells of some parameters collide; `None` for both turned at once, of which there are no runs.
+/// How the solid cells of some parameters collide; `None` for weight and operator turned at once, of which there are no runs.
 pub fn solid_method(parameters: &Parameters) -> Option<SolidMethod> {
     match (&*parameters.weight, &*parameters.operator) {
         ("NT", "bounce_back") => Some(SolidMethod::Usual),
         ("NT", "superposition") => Some(SolidMethod::Superposition),
         ("eps", "bounce_back") => Some(SolidMethod::SolidFraction),
+        ("NT", "full_bounce_back") => Some(SolidMethod::FullBounceBack),
+        ("graded", "graded_viscosity") => Some(SolidMethod::Graded),
         _ => None,
     }
 }
@@ -53,7 +55,7 @@ pub fn committed_sweep() -> Result<Vec<Row>, TableError> {
 }
 
 /// Whether a row has exact solid fractions, double precision and slow flow.
-fn is_plain(row: &Row) -> bool {
+pub(super) fn is_plain(row: &Row) -> bool {
     let parameters = &row.parameters;
     parameters.coverage == CoverageRule::Exact
         && parameters.storage == Storage::F64

@@ -6,6 +6,7 @@ use psmrt::advice::tradeoff::model::{
 };
 use psmrt::advice::tradeoff::model_eps::{EpsModel, logarithm};
 use psmrt::advice::tradeoff::model_low::{LowModel, shift, spread};
+use psmrt::advice::tradeoff::model_tight::{self, TIGHT, TightModel};
 use psmrt::advice::tradeoff::models::Models;
 use psmrt::advice::tradeoff::runs::GrainPoint;
 use psmrt::table::TableError;
@@ -13,6 +14,7 @@ use psmrt_reference::collision::Preset;
 
 use super::evidence::{WallPoint, grain_points, wall_points};
 use super::evidence_low::low_points;
+use super::evidence_tight::tight_points;
 use super::fit::{Fit, least_squares, rms};
 use super::row::Row;
 
@@ -25,6 +27,8 @@ pub struct Fits {
     pub eps: Option<(EpsModel, Fit)>,
     /// With grains, d'Humières' rates and relaxation times below those of `grains`.
     pub low: Option<(LowModel, Fit)>,
+    /// With grains and operators that let no fluid through.
+    pub tight: Vec<(TightModel, Fit)>,
     /// Between plates; none for the magic rates, which are exact there.
     pub walls: Vec<(WallModel, Fit)>,
 }
@@ -44,7 +48,12 @@ impl Fits {
         let low = grains.iter().find(is_above).and_then(|(above, _)| low_model(above, &low));
         let walls =
             Preset::ALL.into_iter().filter_map(|collision| wall_model(collision, &walls)).collect();
-        Ok(Fits { grains, eps: eps_model(&points), low, walls })
+        let tight = tight_points()?;
+        let tight = TIGHT
+            .into_iter()
+            .filter_map(|(collision, solid)| tight_model(collision, solid, &tight))
+            .collect();
+        Ok(Fits { grains, eps: eps_model(&points), low, tight, walls })
     }
 
     /// The models alone.
@@ -53,6 +62,7 @@ impl Fits {
             grains: self.grains.iter().map(|(model, _)| model.clone()).collect(),
             eps: self.eps.as_ref().map(|(model, _)| model.clone()),
             low: self.low.as_ref().map(|(model, _)| model.clone()),
+            tight: self.tight.iter().map(|(model, _)| model.clone()).collect(),
             walls: self.walls.iter().map(|(model, _)| model.clone()).collect(),
         }
     }
@@ -119,6 +129,31 @@ pub fn low_model(above: &GrainModel, points: &[GrainPoint]) -> Option<(LowModel,
     };
     let (fit, evidence) = fitted(&own, through, residual)?;
     Some((LowModel { parameters: fit.parameters[..].try_into().ok()?, evidence }, fit))
+}
+
+/// Where the search starts: what cut cells smooth is a few cells squared, and grains are larger by a third of a cell.
+const TIGHT_START: [f64; 5] = [1.0, 0.4, -1.0, 0.3, 0.0];
+
+/// Fits the points of an operator that lets no fluid through. `None` if there are too few, or of fewer than three
+/// geometries.
+pub fn tight_model(
+    collision: Preset,
+    solid: SolidMethod,
+    points: &[GrainPoint],
+) -> Option<(TightModel, Fit)> {
+    let own = |point: &&GrainPoint| point.collision == collision && point.solid == solid;
+    let own: Vec<&GrainPoint> = points.iter().filter(own).collect();
+    let residual = |p: &[f64], point: &GrainPoint| {
+        let (d, tau, drag) = (point.cells, point.tau, point.drag);
+        let off = model_tight::logarithm(collision, p, d, tau, drag) - point.error.ln_1p();
+        off / model_tight::spread(collision, p, d, tau, drag)
+    };
+    let through = |points: &[&GrainPoint]| {
+        least_squares(&TIGHT_START, |p| points.iter().map(|one| residual(p, one)).collect())
+    };
+    let (fit, evidence) = fitted(&own, through, residual)?;
+    let parameters = fit.parameters[..].try_into().ok()?;
+    Some((TightModel { collision, solid, parameters, evidence }, fit))
 }
 
 /// Fits the points of a collision whose error is more than rounding. `None` if there are too few.

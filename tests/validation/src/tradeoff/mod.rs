@@ -10,7 +10,7 @@
 //! | `record.rs` | rows in a file that grows and can be gone on with |
 //! | `front.rs` | runs that no other beats in cost and error |
 //! | `cost.rs`, `effects.rs` | what a cell update costs; what one parameter alone does |
-//! | `evidence.rs`, `evidence_low.rs` | the runs that error models are fitted to |
+//! | `evidence.rs`, `evidence_low.rs`, `evidence_tight.rs` | the runs that error models are fitted to |
 //! | `fit.rs`, `fitting.rs`, `trial.rs` | the fits, and what was held back from them |
 //! | `operators.rs` | the operators of the solid beside each other |
 //! | `coefficients.rs` | what the product predicts by, made from all this |
@@ -21,6 +21,7 @@ pub mod cost;
 pub mod effects;
 pub mod evidence;
 pub mod evidence_low;
+pub mod evidence_tight;
 pub mod figures;
 pub mod fit;
 pub mod fitting;

@@ -78,6 +78,67 @@ pub fn operators() -> Vec<Parameters> {
             }
         }
     }
+    // Some of these have been asked for above.
+    for run in of_tight_operators(&beds) {
+        if !runs.contains(&run) {
+            runs.push(run);
+        }
+    }
+    runs
+}
+
+/// Further runs of the two operators that let no fluid through, for their error models: with the relaxation times and beds
+/// that a comparison can do without.
+fn of_tight_operators(compared: &[(Flow, &str)]) -> Vec<Parameters> {
+    let more = [
+        (Flow::Sc, "0.1"),
+        (Flow::Sc, "0.2"),
+        (Flow::Bcc, "0.3"),
+        (Flow::Fcc, "0.45"),
+        (Flow::Fcc, "0.7"),
+    ];
+    let (full, graded) = (OPERATORS[2], OPERATORS[3]);
+    let taus = [0.51, 0.55, 0.6, 0.8, 1.0, 1.5, 2.0];
+    let with = |runs: &[Parameters], (operator, weight): (&str, &str)| {
+        changed(runs, |run| {
+            operator.clone_into(&mut run.operator);
+            weight.clone_into(&mut run.weight);
+            "cpu".clone_into(&mut run.engine);
+        })
+    };
+    let all: Vec<(Flow, &str)> = compared.iter().chain(&more).copied().collect();
+    let mut runs = Vec::new();
+    for cells in [8, 12, 16, 24] {
+        // The finer, the longer flows take to become steady, and the less there is to see.
+        let (own, of_others) = match cells {
+            24 => (&taus[1..], &[0.55, 0.8, 1.5][..]),
+            _ => (&taus[..], &taus[..]),
+        };
+        for &(flow, geometry) in &all {
+            let of_size = grid(flow, geometry, &[cells], own, &[DHumieres]);
+            runs.extend(with(&of_size, graded));
+            runs.extend(with(&of_size, full));
+            if cells > 8 {
+                let of_size = grid(flow, geometry, &[cells], of_others, &[Srt, Trt]);
+                runs.extend(with(&of_size, graded));
+            }
+        }
+    }
+    for (flow, geometry) in [more[1], more[2], more[3]] {
+        let finest = grid(flow, geometry, &[32], &[0.6, 1.0, 1.5], &[DHumieres]);
+        runs.extend(with(&finest, graded));
+        runs.extend(with(&finest, full));
+    }
+    let duct = grid(Flow::SphereDrag, "0.00418879", &[20, 30], &[0.8, 1.5, 2.0], &[DHumieres]);
+    runs.extend(with(&duct, graded));
+    runs.extend(with(&duct, full));
+    let duct = grid(Flow::SphereDrag, "0.00418879", &[30], &[0.8, 1.5], &[Srt, Trt]);
+    runs.extend(with(&duct, graded));
+    // A shaft of two diameters is eight times as cheap as the one above.
+    let narrow = grid(Flow::Settling, "0.5", &[4, 6, 8], &taus[2..], &[DHumieres]);
+    runs.extend(with(&narrow, full));
+    runs.extend(with(&grid(Flow::Settling, "0.5", &[12], &[0.8, 1.5], &[DHumieres]), full));
+    runs.extend(with(&grid(Flow::Settling, "0.25", &[4, 6, 8], &[2.0], &[DHumieres]), full));
     runs
 }
 

@@ -52,6 +52,21 @@ pub fn fits(fits: &Fits) -> Table {
         let words = ["grains", Preset::DHumieres.word(), SolidMethod::SolidFraction.word()];
         add(words, model.evidence.counts, &rows, model.evidence.scatter, model.band());
     }
+    for (model, fit) in &fits.tight {
+        let (p, e) = (&model.parameters, &fit.errors);
+        let ((b, db), (c, dc)) = (whole(p[0], e[0]), whole(p[2], e[2]));
+        let last = match model.collision {
+            Preset::Srt => {
+                let (a, da) = whole(p[4], e[4]);
+                ("a", a, da)
+            }
+            Preset::DHumieres | Preset::Trt => ("r", p[4], e[4]),
+        };
+        let rows = [("b", b, db), ("m", p[1], e[1]), ("c", c, dc), ("n", p[3], e[3]), last];
+        let words = ["grains", model.collision.word(), model.solid.word()];
+        // The band is a share of what scatters, not a factor.
+        add(words, model.evidence.counts, &rows, model.evidence.scatter, model.share());
+    }
     for (model, fit) in &fits.walls {
         let (p, e) = (&model.parameters, &fit.errors);
         let rows = [("s", p[0], e[0]), ("c", p[1], e[1])];

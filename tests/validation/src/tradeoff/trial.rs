@@ -1,9 +1,9 @@
 //! The configurations that were held back from the fits: what the models predict, and what was measured.
 
-use super::evidence::{grain_point, wall_point};
+use super::evidence::{grain_point, solid_method, wall_point};
 use super::parameters::Parameters;
 use super::row::Row;
-use psmrt::advice::tradeoff::model::LEAST_ERROR;
+use psmrt::advice::tradeoff::model::{LEAST_ERROR, SolidMethod};
 use psmrt::advice::tradeoff::models::Models;
 use psmrt::table::{Table, TableError};
 
@@ -36,6 +36,12 @@ impl Trial {
     pub fn hits(&self) -> bool {
         (self.ends[0]..=self.ends[1]).contains(&self.measured)
     }
+}
+
+/// Whether a trial had an operator that lets no fluid through.
+pub fn is_of_tight(trial: &Trial) -> bool {
+    let method = solid_method(&trial.row.parameters);
+    matches!(method, Some(SolidMethod::Graded | SolidMethod::FullBounceBack))
 }
 
 /// How many of some trials hit, and how many there are: of those that bands were widened after, and of the

@@ -2,18 +2,20 @@
 
 use crate::common::{Budget, golden_rows};
 use proptest::prelude::*;
-use psmrt::advice::tradeoff::model::{GrainModel, SolidMethod};
+use psmrt::advice::tradeoff::model::{GrainModel, LEAST_ERROR, SolidMethod};
 use psmrt::advice::tradeoff::models::Models;
 use psmrt::advice::tradeoff::runs::GrainPoint;
 use psmrt::table::Table;
 use psmrt_reference::collision::Preset;
+use psmrt_reference::coverage::CoverageRule;
 use psmrt_report::render_svg;
 use psmrt_validation::cases::{CASES, Golden};
 use psmrt_validation::tradeoff::effects;
 use psmrt_validation::tradeoff::evidence::{committed_sweep, grain_points, solid_method};
 use psmrt_validation::tradeoff::evidence_low::low_points;
+use psmrt_validation::tradeoff::evidence_tight::tight_points;
 use psmrt_validation::tradeoff::fit::Fit;
-use psmrt_validation::tradeoff::fitting::{Fits, eps_model, grain_model};
+use psmrt_validation::tradeoff::fitting::{Fits, eps_model, grain_model, tight_model};
 use psmrt_validation::tradeoff::measure::Runner;
 use psmrt_validation::tradeoff::parameters::{Flow, Parameters, Storage};
 use psmrt_validation::tradeoff::pareto::front;
@@ -102,6 +104,34 @@ fn fit_with_b_epsilon_recovers_the_coefficients_of_both_its_errors() {
     for (found, wanted) in found.into_iter().zip([4.0, 0.8, 0.4, 0.3, 0.6]) {
         // Derivatives by differences of 1e-7 leave some 1e-7.
         assert!((found - wanted).abs() < 1e-5 * wanted, "{found} instead of {wanted}");
+    }
+}
+
+#[test]
+fn fit_of_a_tight_operator_recovers_the_coefficients_that_made_the_data() {
+    for (collision, solid, last) in [
+        (Preset::Srt, SolidMethod::Graded, 3.0_f64.ln()),
+        (Preset::DHumieres, SolidMethod::FullBounceBack, 0.25),
+    ] {
+        let mut points = synthetic(|| 0.0);
+        for point in &mut points {
+            let (d, x, drag) = (point.cells, point.tau - 0.5, point.drag);
+            let size = match collision {
+                Preset::Srt => 4.0 + 3.0 * x * x,
+                _ => 4.0 * x.powf(0.25),
+            };
+            let logarithm = drag.powf(0.4) * size / (d * d) - 0.5 * drag.powf(0.2) / d;
+            (point.collision, point.solid) = (collision, solid);
+            point.error = logarithm.exp_m1();
+        }
+        // Of either sign, as those of the runs.
+        assert!(points.iter().any(|p| p.error < -0.01) && points.iter().any(|p| p.error > 0.2));
+        let (model, _) = tight_model(collision, solid, &points).unwrap();
+        let wanted = [4.0_f64.ln(), 0.4, 0.5_f64.ln(), 0.2, last];
+        for (found, wanted) in model.parameters.into_iter().zip(wanted) {
+            // Derivatives by differences of 1e-7 leave some 1e-7.
+            assert!((found - wanted).abs() < 1e-5, "{solid:?}: {found} instead of {wanted}");
+        }
     }
 }
 
@@ -256,7 +286,8 @@ fn unshifted_single_precision_loses_digits_as_the_flow_slows_and_shifted_does_no
 
 #[test]
 fn what_was_kept_back_is_in_no_fit() {
-    let points = grain_points(&committed_sweep().unwrap()).unwrap();
+    let mut points = grain_points(&committed_sweep().unwrap()).unwrap();
+    points.extend(tight_points().unwrap());
     let list = golden_rows("tradeoff/held_back.csv");
     let results = committed_results().unwrap();
     // The first row holds the names.
@@ -314,6 +345,63 @@ fn bands_are_narrow_and_hold() {
     for [hits, of] in score(&trials) {
         println!("{hits} of {of}");
         assert!(of >= 12 && 10 * hits >= 9 * of, "{hits} of {of}");
+    }
+}
+
+#[test]
+fn bands_of_the_tight_operators_hold_what_was_kept_back() {
+    let models = Models::committed().unwrap();
+    let all = trials(models, &committed_results().unwrap()).unwrap();
+    for solid in [SolidMethod::Graded, SolidMethod::FullBounceBack] {
+        let own: Vec<_> =
+            all.iter().filter(|trial| solid_method(&trial.row.parameters) == Some(solid)).collect();
+        let hits = own.iter().filter(|trial| trial.hits()).count();
+        println!("{solid:?}: {hits} of {}", own.len());
+        // Bands are made to hold 95 %; 90 % is the aim, as above.
+        assert!(own.len() >= 12 && 10 * hits >= 9 * own.len(), "{hits} of {}", own.len());
+    }
+    // With 14 cells in a bed of 15 times Stokes' drag the operators of this study are told apart from a tenth on.
+    for model in &models.tight {
+        let [low, high] = model.prediction(14.0, 0.8, 15.0).band;
+        assert!(high - low < 0.2, "{:?} {:?}: {low} to {high}", model.solid, model.collision);
+    }
+}
+
+#[test]
+fn graded_viscosity_errs_no_more_than_the_papers_operator_in_fixed_beds() {
+    let table = Table::read(&Path::new(GOLDEN).join("tradeoff/operators.csv")).unwrap();
+    let rows = Row::of_table(&table).unwrap();
+    let exact = |row: &&Row| row.parameters.coverage == CoverageRule::Exact && row.error.is_some();
+    let mut pairs: Vec<(&Row, f64, f64)> = Vec::new();
+    for row in rows.iter().filter(exact).filter(|row| row.parameters.weight == "graded") {
+        let usual = Parameters {
+            weight: "NT".to_owned(),
+            operator: "bounce_back".to_owned(),
+            ..row.parameters.clone()
+        };
+        let usual = rows.iter().find(|other| other.parameters == usual);
+        if let (Some(own), Some(usual)) = (row.error, usual.and_then(|other| other.error)) {
+            pairs.push((row, own.abs(), usual.abs()));
+        }
+    }
+    assert!(pairs.len() > 150, "only {} pairs", pairs.len());
+    let better = pairs.iter().filter(|(_, own, usual)| own <= usual).count();
+    println!("better in {better} of {}", pairs.len());
+    // Near tau = 1/2 the two errors of the other cancel in places; nine of ten are asked for all the same.
+    assert!(10 * better >= 9 * pairs.len(), "better in {better} of {} only", pairs.len());
+    for (row, own, usual) in &pairs {
+        // What the place of a grain on the grid may do to two runs, 1 % each.
+        assert!(*own < usual + 2.0 * LEAST_ERROR, "{:?}: {own} for {usual}", row.parameters);
+    }
+    // In no bed on no grid is its largest error the larger.
+    for (row, ..) in &pairs {
+        let same = |other: &&(&Row, f64, f64)| {
+            let (one, other) = (&row.parameters, &other.0.parameters);
+            (one.flow, &one.geometry, one.cells) == (other.flow, &other.geometry, other.cells)
+        };
+        let own = pairs.iter().filter(same).map(|pair| pair.1).fold(0.0, f64::max);
+        let usual = pairs.iter().filter(same).map(|pair| pair.2).fold(0.0, f64::max);
+        assert!(own < usual, "{:?}: {own} for {usual}", row.parameters);
     }
 }
 
