@@ -99,6 +99,12 @@ impl SolidOperator {
         self == SolidOperator::FullBounceBack
     }
 
+    /// Whether full cells turn every population back. What is in them when they are filled stays there and goes to and fro
+    /// from step to step, and the load on the solid with it, so that it must have the solid's motion (`start.rs`).
+    pub fn is_tight(self) -> bool {
+        matches!(self, SolidOperator::FullBounceBack | SolidOperator::GradedViscosity)
+    }
+
     /// The change `Lambda` of the populations in a cell full of solid that moves with `u_p`, as a
     /// function of `u_p`: what does not depend on the solid is worked out once for all solids in
     /// the cell. `None` for an operator that is no sum of a fluid and a solid part.

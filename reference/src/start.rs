@@ -6,6 +6,10 @@
 //! fills it, by volume: the momentum in the covered part of all cells is then `m_f v`, and that of fluid
 //! and grain together what the grain's mass and the fluid around it make it (`coupling/mod.rs`).
 //!
+//! Under a tight operator (`SolidOperator::is_tight`) solids at rest need it too: a full cell turns its populations back
+//! for ever, and with momentum in it the load would change its sign at each step
+//! (`tests/oracle/tight_solids.rs`).
+//!
 //! A scene says thereby: at the start the grain has its velocity and the fluid outside its own, up to the
 //! surface. Both are only possible for a moment. Fluid that has to give way takes up its share of the
 //! momentum by sound, within a few `a/c_s`: a lone sphere keeps `r/(r + 1/2)` of its velocity, with `r`

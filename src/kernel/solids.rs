@@ -117,6 +117,10 @@ impl Solids {
     pub(super) fn motions(&self, domain: &Domain, phase: &SolidPhase) -> Vec<(u32, f64, Vec3)> {
         match self.kept {
             Kept::Movable(_) => Coverage::of(domain, phase).motions(phase),
+            // Full cells keep what they start with.
+            Kept::Fixed(_) if phase.operator.is_tight() => {
+                Coverage::of(domain, phase).motions(phase)
+            }
             Kept::Fixed(_) => Vec::new(),
         }
     }

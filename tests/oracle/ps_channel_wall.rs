@@ -113,9 +113,11 @@ fn collision_of_row(name: &str, tau: f64) -> Collision {
 
 #[test]
 fn plane_walls_lie_where_an_independent_computation_puts_them() {
-    let mut budget = Budget::oracle(7_000_000);
+    let mut budget = Budget::oracle(15_600_000);
     let mut compared = 0;
-    for row in golden_rows("ps_channel_wall/literature.csv").iter().skip(1) {
+    let tables = ["literature.csv", "graded.csv"];
+    let rows = tables.map(|file| golden_rows(&format!("ps_channel_wall/{file}")));
+    for row in rows.iter().flat_map(|rows| rows.iter().skip(1)) {
         let number = |column: usize| row[column].parse::<f64>().unwrap();
         let tau = number(0);
         let operator = match &row[3] {
@@ -123,11 +125,15 @@ fn plane_walls_lie_where_an_independent_computation_puts_them() {
             // The table's superposition has 1 - 1/tau for all moments alike, ours each moment's own
             // rate: the same model for SRT alone.
             "SC2" if &row[1] == "SRT" => SolidOperator::Superposition,
-            _ => continue,
+            "SC2" => continue,
+            "SC3" => SolidOperator::FullBounceBack,
+            "graded" => SolidOperator::GradedViscosity,
+            name => panic!("unknown operator {name}"),
         };
         let weighting = match &row[2] {
             "eps" => Weighting::SolidFraction,
             "NT" => Weighting::NobleTorczynski,
+            "graded" => Weighting::Graded,
             name => panic!("unknown weight {name}"),
         };
         let wall = PsWall {
@@ -152,8 +158,9 @@ fn plane_walls_lie_where_an_independent_computation_puts_them() {
         }
         compared += 1;
     }
-    // Six taus, two weights, four offsets: bounce-back with three collisions, superposition with SRT.
-    assert_eq!(compared, 6 * 2 * 4 * (3 + 1));
+    // Six taus, two weights, four offsets: both forms of bounce-back with three collisions, superposition with SRT;
+    // graded viscosity, which has one weight, with three collisions.
+    assert_eq!(compared, 6 * 4 * (2 * (3 + 3 + 1) + 3));
 }
 
 #[test]

@@ -59,7 +59,9 @@ impl<T: Real> Fluid<T> {
     pub fn starting_from(setup: Setup, state: &dyn Fn(Vec3) -> (f64, Vec3), is_free: bool) -> Self {
         let mut fluid = Self::empty(setup);
         let has_velocity = fluid.solids().iter().any(Solid::has_velocity);
-        fluid.fill(state, is_free || has_velocity);
+        let is_tight =
+            fluid.setup.solid_phase.as_ref().is_some_and(|phase| phase.operator.is_tight());
+        fluid.fill(state, is_free || has_velocity || is_tight);
         fluid.entering = Entering::new(&fluid.setup.domain, &fluid.grid);
         fluid
     }
@@ -109,9 +111,9 @@ impl<T: Real> Fluid<T> {
         }
     }
 
-    /// Puts each cell into equilibrium with `state` and, if `covered_move`, where solids cover it with their
+    /// Puts each cell into equilibrium with `state` and, if `with_solids`, where solids cover it with their
     /// velocity: by volume, the mean velocity of what fills it.
-    fn fill(&mut self, state: &dyn Fn(Vec3) -> (f64, Vec3), covered_move: bool) {
+    fn fill(&mut self, state: &dyn Fn(Vec3) -> (f64, Vec3), with_solids: bool) {
         let domain = self.setup.domain.clone();
         let g = self.setup.body_force.unwrap_or_else(Vec3::zeros);
         let solids = self.solids().to_vec();
@@ -119,7 +121,7 @@ impl<T: Real> Fluid<T> {
         for run in 0..cells.div_ceil(self.run) {
             let first = run * self.run;
             let mut fields = Fields::new(self.run);
-            if let Some(coverage) = self.coverage.as_ref().filter(|_| covered_move) {
+            if let Some(coverage) = self.coverage.as_ref().filter(|_| with_solids) {
                 fields.add((coverage, &solids), run, first);
             }
             let motion = fields.motion();
