@@ -142,11 +142,6 @@ impl Kernel {
         &self.gpu
     }
 
-    /// Bytes of memory on the device that the populations take.
-    pub fn population_bytes(&self) -> u64 {
-        self.layout.bytes_of_both()
-    }
-
     /// Whether to keep the times of [`Self::times`], for which the device is waited for after each part
     /// of a step.
     pub fn keep_times(&mut self, keep: bool) {

@@ -1,4 +1,8 @@
 //! Sums over the touches of solids: the loads of the last step, and how solids hold the fluid before the next one.
+//!
+//! The loads come from what a step keeps of its covered cells. Grips are asked for before the step: they read the
+//! populations of those cells themselves, as it will, and only of the solids that are asked for. Several workgroups
+//! share a solid; their parts are added up here in double precision, always in the same order.
 
 use nalgebra::Matrix3;
 use psmrt_reference::lattice::Vec3;
@@ -53,7 +57,7 @@ impl Kernel {
         let since = self.watch.begin();
         let Some(solids) = &self.solids else { return Ok(()) };
         let gather = self.pipeline(Work::Loads)?;
-        let group = self.bind_from(self.current, &gather, None, None)?;
+        let group = self.bind(self.current, &gather, None, None)?;
         gather.run(&self.gpu, &group, groups(solids.solid_count, 1))?;
         self.watch.wait(&self.gpu, since, |times| &mut times.forces)
     }
@@ -76,7 +80,7 @@ impl Kernel {
         let row = 4 * COLUMNS * parts as usize;
         let bytes = WORD * (wanted.len() * row) as u64;
         self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
-        let group = self.bind_from(self.current, &gather, None, Some(list.buffer()))?;
+        let group = self.bind(self.current, &gather, None, Some(list.buffer()))?;
         gather.run(&self.gpu, &group, groups(asked, parts))?;
         let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
         let rows = bytemuck::cast_slice::<u8, f32>(&bytes).chunks_exact(row);

@@ -103,7 +103,8 @@ impl Kernel {
         count: u32,
     ) -> Result<(), KernelError> {
         self.gpu.queue.write_buffer(&self.tasks.observed, 0, bytemuck::bytes_of(&task));
-        let group = self.bind(pipeline, &self.tasks.observed, Some(list.buffer()))?;
+        let task = Some(&self.tasks.observed);
+        let group = self.bind(self.current, pipeline, task, Some(list.buffer()))?;
         pipeline.run(&self.gpu, &group, groups_of(count))
     }
 

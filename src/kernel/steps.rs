@@ -133,22 +133,13 @@ impl Kernel {
         size: Size<'a>,
     ) -> Result<Part<'a>, KernelError> {
         let pipeline = self.pipeline(work)?;
-        let bind = |from| self.bind_from(from, &pipeline, task, list);
+        let bind = |from| self.bind(from, &pipeline, task, list);
         let groups = [bind(self.current)?, bind(1 - self.current)?];
         Ok(Part { pipeline, groups, size })
     }
 
-    pub(super) fn bind(
-        &self,
-        pipeline: &Pipeline,
-        task: &wgpu::Buffer,
-        list: Option<&wgpu::Buffer>,
-    ) -> Result<wgpu::BindGroup, KernelError> {
-        self.bind_from(self.current, pipeline, Some(task), list)
-    }
-
     /// The bindings of a pipeline that starts from copy `from`.
-    pub(super) fn bind_from(
+    pub(super) fn bind(
         &self,
         from: usize,
         pipeline: &Pipeline,

@@ -112,12 +112,11 @@ pub fn scene(text: &str) -> Scene {
 /// Steps of [`grains_move_as_in_the_oracle`].
 pub const STEPS: u64 = 24;
 
-/// Populations and velocities of grains are the oracle's but for `bound`.
+/// Populations and velocities of grains are the oracle's, but for a bound of each engine.
 pub fn grains_move_as_in_the_oracle(
-    name: EngineName,
+    engines: &[(EngineName, f64)],
     gpu: Option<&Arc<Gpu>>,
     budget: &mut Budget,
-    bound: f64,
 ) {
     for (scene_name, text) in [("periodic", PERIODIC), ("closed", CLOSED)] {
         let scene = scene(text);
@@ -127,18 +126,22 @@ pub fn grains_move_as_in_the_oracle(
             engine
         };
         budget.spend(STEPS * scene.setup.domain.cell_count() as u64);
-        let (found, oracle) = (run(name), run(EngineName::Reference));
+        let oracle = run(EngineName::Reference);
         let all = Block::whole(&scene.setup.domain);
-        let (cells, expected) = (found.populations(all), oracle.populations(all));
-        let pairs = cells.iter().zip(&expected);
-        let off = pairs.flat_map(|(f, e)| (0..Q).map(|a| (f[a] - e[a]).abs())).fold(0.0, f64::max);
-        println!("{scene_name}, {name:?}: populations {off:.1e} apart, allowed {bound:.1e}");
-        assert!(off < bound, "{scene_name}, {name:?}: {off:e} apart, rounding explains {bound:e}");
-        for (solid, expected) in found.solids().iter().zip(oracle.solids()) {
-            let off = (solid.velocity - expected.velocity).norm()
-                + (solid.angular_velocity - expected.angular_velocity).norm();
-            println!("{scene_name}, {name:?}: a velocity {off:.1e} apart");
-            assert!(off < bound, "{scene_name}, {name:?}: {solid:?} and {expected:?}");
+        let expected = oracle.populations(all);
+        for &(name, bound) in engines {
+            let (what, found) = (format!("{scene_name}, {name:?}"), run(name));
+            let cells = found.populations(all);
+            let pairs = cells.iter().zip(&expected);
+            let off =
+                pairs.flat_map(|(f, e)| (0..Q).map(|a| (f[a] - e[a]).abs())).fold(0.0, f64::max);
+            println!("{what}: populations {off:.1e} apart, allowed {bound:.1e}");
+            assert!(off < bound, "{what}: {off:e} apart, rounding explains {bound:e}");
+            for (solid, expected) in found.solids().iter().zip(oracle.solids()) {
+                let off = (solid.velocity - expected.velocity).norm()
+                    + (solid.angular_velocity - expected.angular_velocity).norm();
+                assert!(off < bound, "{what}: {off:e} apart: {solid:?} and {expected:?}");
+            }
         }
     }
 }
