@@ -74,7 +74,7 @@ Examples:
         set: Vec<String>,
         #[command(flatten)]
         engine: EngineArguments,
-        /// Prints seconds per step of fluid, forces, grains, coverage and transfers (engines cpu and wgpu)
+        /// Prints seconds per step of fluid, forces, grips, grains, coverage and transfers (engines cpu and wgpu)
         #[arg(long)]
         profile: bool,
     },

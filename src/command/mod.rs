@@ -18,7 +18,6 @@ mod summary;
 
 use std::path::Path;
 
-use psmrt_reference::coupling::is_implicit;
 use thiserror::Error;
 
 use crate::advice::estimate::memory;
@@ -188,14 +187,6 @@ fn engine_of(scene: &Scene) -> EngineName {
     let cpu = EngineName::cpu(scene.precision);
     if scene.precision == Some(Precision::Double) {
         tell("engine auto: double precision is asked for, so the CPU engine (cpu) computes");
-        return cpu;
-    }
-    if scene.free.is_some() && is_implicit(&scene.setup) {
-        tell(&format!(
-            "engine auto: the kernel (wgpu) cannot move free grains with solid.operator = \"full_bounce_back\", so the CPU \
-             engine ({}) computes",
-            cpu.word()
-        ));
         return cpu;
     }
     let found = adapters();

@@ -52,14 +52,6 @@ impl DeviceError {
     }
 }
 
-/// Free grains that are coupled implicitly, on an engine that cannot say how they hold the fluid.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error(
-    "engine wgpu cannot move free grains with solid.operator = \"full_bounce_back\", which asks for their velocity before \
-     the collision: take engine.kind = \"cpu\", or solid.operator = \"bounce_back\""
-)]
-pub struct NoImplicitCoupling;
-
 /// What an engine cannot take: a scene to start from, or a drive.
 #[derive(Debug, Error)]
 pub enum StartError {
@@ -81,9 +73,6 @@ pub enum StartError {
         /// How many solids there are.
         solids: usize,
     },
-    /// Free grains that the engine cannot couple implicitly.
-    #[error(transparent)]
-    NoImplicitCoupling(#[from] NoImplicitCoupling),
     /// Averaged loads of free grains that are coupled implicitly.
     #[error(transparent)]
     Coupling(#[from] CouplingError),

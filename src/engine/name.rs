@@ -92,11 +92,6 @@ impl EngineName {
         }
     }
 
-    /// Whether it moves free grains whose operator asks for implicit coupling.
-    pub fn couples_implicitly(self) -> bool {
-        self != EngineName::Wgpu
-    }
-
     /// Whether it computes on a device, which an adapter stands for.
     pub fn needs_device(self) -> bool {
         self == EngineName::Wgpu

@@ -10,8 +10,7 @@ use psmrt_reference::solids::Solid;
 
 use super::coupled::{Coupled, Grains};
 use super::{
-    CpuEngine, DeviceError, EngineName, FluidEngine, KernelEngine, NoImplicitCoupling,
-    ReferenceEngine, StartError,
+    CpuEngine, DeviceError, EngineName, FluidEngine, KernelEngine, ReferenceEngine, StartError,
 };
 use crate::kernel::Gpu;
 use crate::scene::{FreePart, Scene};
@@ -66,7 +65,7 @@ pub fn open(
     let velocity = scene.initial_velocity;
     if let Some(part) = &scene.free {
         // Before a device is opened in vain.
-        can_couple(name, &scene.setup, part)?;
+        can_couple(&scene.setup, part)?;
     }
     let gpu = if name.needs_device() { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
     let state = |_| (1.0, velocity);
@@ -97,15 +96,10 @@ fn place_grains(
     Ok(())
 }
 
-/// Errors unless the engine `name` can couple the grains as the operator of the solids asks.
-fn can_couple(name: EngineName, setup: &Setup, part: &FreePart) -> Result<(), StartError> {
-    if !is_implicit(setup) {
-        return Ok(());
-    }
-    if !name.couples_implicitly() {
-        return Err(NoImplicitCoupling.into());
-    }
-    if part.settings.average_loads { Err(CouplingError::Averaged.into()) } else { Ok(()) }
+/// Errors unless the grains can be coupled as the operator of the solids asks.
+fn can_couple(setup: &Setup, part: &FreePart) -> Result<(), CouplingError> {
+    let is_averaged = is_implicit(setup) && part.settings.average_loads;
+    if is_averaged { Err(CouplingError::Averaged) } else { Ok(()) }
 }
 
 /// A fluid whose density and velocity at each cell centre are `state(centre)`; `free` says how the grains
@@ -122,7 +116,7 @@ pub fn starting_from(
     let mut setup = setup.clone();
     let grains = match free {
         Some(part) => {
-            can_couple(name, &setup, part)?;
+            can_couple(&setup, part)?;
             let moving = part.free_grains(&setup.domain)?;
             let solids = setup.solid_phase.as_mut().map(|phase| &mut phase.solids);
             place_grains(part, &moving, solids.unwrap_or(&mut Vec::new()))?;

@@ -10,9 +10,7 @@ use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Grip, Load, Solid};
 
 use super::bytes::{put_whole, whole};
-use super::{
-    Block, BoxMeans, CellState, DeviceError, FluidEngine, NoImplicitCoupling, Start, StartError,
-};
+use super::{Block, BoxMeans, CellState, DeviceError, FluidEngine, Start, StartError};
 use crate::kernel::{Gpu, Kernel, KernelError, KernelTimes, Summary};
 use crate::machine::Spent;
 
@@ -83,8 +81,8 @@ impl FluidEngine for KernelEngine {
         Ok(self.kernel.loads_with_displaced()?)
     }
 
-    fn grips(&mut self, _: &[usize]) -> Result<Vec<Grip>, DeviceError> {
-        Err(DeviceError::new(NoImplicitCoupling))
+    fn grips(&mut self, wanted: &[usize]) -> Result<Vec<Grip>, DeviceError> {
+        Ok(self.kernel.grips(wanted)?)
     }
 
     fn means(&self) -> Result<BoxMeans, DeviceError> {
@@ -123,8 +121,13 @@ impl FluidEngine for KernelEngine {
         if !self.keeps_times {
             return Vec::new();
         }
-        let KernelTimes { fluid, coverage, forces, transfers } = self.kernel.times();
-        vec![("fluid", fluid), ("forces", forces), ("coverage", coverage), ("transfers", transfers)]
+        let KernelTimes { fluid, coverage, forces, grips, transfers } = self.kernel.times();
+        let mut parts = vec![("fluid", fluid), ("forces", forces)];
+        if grips != Spent::default() {
+            parts.push(("grips", grips));
+        }
+        parts.extend([("coverage", coverage), ("transfers", transfers)]);
+        parts
     }
 
     fn save(&self, out: &mut dyn Write) -> io::Result<()> {

@@ -6,18 +6,16 @@ use wgpu::BufferUsages;
 use super::device::Gpu;
 use super::error::KernelError;
 
-/// A storage buffer that is made anew, larger, when its contents outgrow it.
+/// A storage buffer that is made anew, larger, when its contents outgrow it: bindings to it are then stale.
 #[derive(Debug)]
 pub(super) struct Growing {
     label: &'static str,
     buffer: wgpu::Buffer,
-    /// How often it has been made: bindings to an earlier one are stale.
-    pub(super) generation: u64,
 }
 
 impl Growing {
     pub(super) fn new(gpu: &Gpu, label: &'static str) -> Result<Self, KernelError> {
-        Ok(Growing { label, buffer: gpu.buffer(label, 64, STORAGE)?, generation: 0 })
+        Ok(Growing { label, buffer: gpu.buffer(label, 64, STORAGE)? })
     }
 
     /// Makes room for `bytes` bytes. What it held is lost where it had less.
@@ -34,7 +32,6 @@ impl Growing {
             }
             // A quarter more, so that grains on the move seldom ask for more.
             self.buffer = gpu.buffer(self.label, (bytes + bytes / 4).min(limit), STORAGE)?;
-            self.generation += 1;
         }
         Ok(())
     }

@@ -46,7 +46,7 @@ pub(super) struct Recipe<'a> {
 }
 
 /// The work that a shader does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Work {
     /// A step of all cells; with the solids in it or without.
     Step {
@@ -66,6 +66,15 @@ pub(super) enum Work {
     Observe,
     /// Sums over the box.
     Summary,
+    /// Sums over the touches of each solid: the loads of the last step.
+    Loads,
+    /// The same of listed solids: how they hold the fluid before its next collision.
+    Grips {
+        /// Whether the populations are there before their collision.
+        is_first: bool,
+        /// Workgroups to each solid.
+        parts: u32,
+    },
 }
 
 impl Work {
@@ -76,6 +85,16 @@ impl Work {
             Work::StepListed { .. } => "step_listed",
             Work::Observe => "observe",
             Work::Summary => "summary",
+            Work::Loads | Work::Grips { .. } => "gather",
+        }
+    }
+
+    /// Whether it streams with the rules of the faces, other than the steps of all cells.
+    pub(super) fn has_faces(self) -> bool {
+        match self {
+            Work::Step { .. } | Work::Loads => false,
+            Work::StepListed { is_first, .. } | Work::Grips { is_first, .. } => !is_first,
+            Work::Observe | Work::Summary => true,
         }
     }
 }
@@ -98,21 +117,23 @@ impl Recipe<'_> {
             Work::Step { with_solids, with_loads } => (with_solids, with_loads),
             Work::StepListed { with_loads, .. } => (true, with_loads),
             Work::Summary | Work::Observe => (true, false),
+            Work::Loads | Work::Grips { .. } => (false, false),
         };
         if is_in { (self.solids, with_loads) } else { (SolidData::None, false) }
     }
 
     /// Whether `work` depends on the body force or on what a face holds.
     pub(super) fn takes_drive(&self, work: Work) -> bool {
-        let has_force = work != Work::Observe && self.setup.body_force.is_some();
-        // Those of all cells take every face for periodic, and the first step does not stream.
-        let has_faces =
-            !matches!(work, Work::Step { .. } | Work::StepListed { is_first: true, .. });
-        has_force || (has_faces && (self.walls_move || has_densities(self.setup)))
+        let collides = matches!(work, Work::Step { .. } | Work::StepListed { .. } | Work::Summary);
+        (collides && self.setup.body_force.is_some())
+            || (work.has_faces() && (self.walls_move || has_densities(self.setup)))
     }
 
     /// The shader for `work`.
     pub(super) fn shader(&self, work: Work) -> String {
+        if work == Work::Loads {
+            return self.constants() + &self.gather(work);
+        }
         let listed = !matches!(work, Work::Step { .. });
         let steps = matches!(work, Work::Step { .. } | Work::StepListed { .. });
         let (solids, with_loads) = self.solids_in(work);
@@ -144,29 +165,14 @@ impl Recipe<'_> {
             let writes = matches!(work, Work::StepListed { is_first: false, .. });
             add(&faces(&self.setup.domain, &self.layout, self.walls_move, writes));
         }
-        add(match work {
-            Work::Step { .. } => include_str!("wgsl/step.wgsl"),
-            Work::StepListed { .. } => include_str!("wgsl/step_listed.wgsl"),
-            Work::Observe => include_str!("wgsl/observe.wgsl"),
-            Work::Summary => include_str!("wgsl/summary.wgsl"),
+        add(&match work {
+            Work::Step { .. } => include_str!("wgsl/step.wgsl").to_owned(),
+            Work::StepListed { .. } => include_str!("wgsl/step_listed.wgsl").to_owned(),
+            Work::Observe => include_str!("wgsl/observe.wgsl").to_owned(),
+            Work::Summary => include_str!("wgsl/summary.wgsl").to_owned(),
+            Work::Loads | Work::Grips { .. } => self.gather(work),
         });
         text
-    }
-
-    /// The shader that adds up the touches of each solid.
-    pub(super) fn gather(&self) -> String {
-        // A workgroup waits for its slowest part, which a software adapter does at some cost: there it has
-        // but one part, eight invocations.
-        let lanes = if self.layout.store == Store::Textures { 8 } else { 64 };
-        let tables = [(Binding::Shares, "shares"), (Binding::Moments, "moments")]
-            .map(|(binding, name)| table::reader(self.layout.store, binding, name));
-        let head = format!(
-            "const LANES = {lanes}u;\nconst SOLIDS = {}u;\nconst GAIN = {};\n",
-            self.solid_count(),
-            literal(self.gain())
-        );
-        let files = [include_str!("wgsl/solid.wgsl"), include_str!("wgsl/gather.wgsl")];
-        head + &tables.concat() + &files.concat()
     }
 
     /// What the solid operator takes of the momentum, over `B (j - ρ u_s)`.
@@ -197,7 +203,10 @@ impl Recipe<'_> {
             flags.push("TEXTURES");
         }
         match work {
-            Work::StepListed { is_first: true, .. } => flags.push("BEFORE"),
+            Work::StepListed { is_first: true, .. } | Work::Grips { is_first: true, .. } => {
+                flags.push("BEFORE");
+            }
+            Work::Grips { is_first: false, .. } => flags.push("AFTER"),
             Work::StepListed { is_first: false, .. } => {
                 flags.push("AFTER");
                 if outgoing::has_any(&self.setup.domain) {

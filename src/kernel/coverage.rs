@@ -41,7 +41,7 @@ pub(super) struct Coverage {
 /// The tables that the device works with where no solid moves.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tables {
-    /// For each touch, after one of none, 0 and the bits of the arm.
+    /// For each touch, after one of none, its cell, counted from 1, and the bits of the arm.
     pub(super) shares: Vec<[u32; 4]>,
     /// The same: the number of its cell's record.
     pub(super) links: Vec<u32>,
@@ -147,7 +147,7 @@ impl Coverage {
         let mut tables = none;
         for touch in self.covers.iter().flatten() {
             let [x, y, z] = [touch.arm.x, touch.arm.y, touch.arm.z].map(|x| single(x).to_bits());
-            tables.shares.push([0, x, y, z]);
+            tables.shares.push([touch.cell + 1, x, y, z]);
             tables.links.push(self.slots[touch.cell as usize]);
             tables.weights.push(single(weight(phase.weighting, touch.epsilon, tau)));
         }

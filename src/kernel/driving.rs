@@ -1,6 +1,5 @@
 //! The drive of a kernel: taken from the caller, passed on to the device, saved.
 
-use std::cell::OnceCell;
 use std::io;
 
 use psmrt_reference::drive::{Drive, DriveError};
@@ -21,14 +20,7 @@ impl Kernel {
     fn let_walls_move(&mut self, rows: &FaceRows) {
         if !self.driven.walls_move && any_moves(rows) {
             self.driven.walls_move = true;
-            for pipeline in [
-                &mut self.step_listed,
-                &mut self.step_listed_with_loads,
-                &mut self.observe,
-                &mut self.summary,
-            ] {
-                *pipeline = OnceCell::new();
-            }
+            self.pipelines.borrow_mut().retain(|work, _| !work.has_faces());
         }
     }
 

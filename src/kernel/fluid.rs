@@ -1,8 +1,8 @@
 //! The fluid of one box on a device: what it is made of and how it starts. Its steps are in `steps.rs`,
 //! what can be seen of it in `observed.rs`, its saved state in `state.rs`.
 
-use std::cell::{OnceCell, RefCell};
-use std::collections::HashSet;
+use std::cell::RefCell;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use psmrt_reference::directions::Q;
@@ -47,17 +47,8 @@ pub struct Kernel {
     pub(super) list_count: u32,
     pub(super) tasks: Tasks,
     pub(super) driven: Driven,
-    pub(super) step: Pipeline,
-    /// The same that keeps the moments of covered cells, for the loads.
-    pub(super) step_with_loads: OnceCell<Pipeline>,
-    /// The first step, of populations before their collision.
-    pub(super) first_step: OnceCell<Pipeline>,
-    pub(super) first_step_with_loads: OnceCell<Pipeline>,
-    pub(super) step_listed: OnceCell<Pipeline>,
-    pub(super) step_listed_with_loads: OnceCell<Pipeline>,
-    pub(super) observe: OnceCell<Pipeline>,
-    pub(super) summary: OnceCell<Pipeline>,
-    pub(super) gather: OnceCell<Pipeline>,
+    /// Those that have been needed so far.
+    pub(super) pipelines: RefCell<HashMap<Work, Arc<Pipeline>>>,
     /// Populations and parts of sums on their way back.
     pub(super) seen: RefCell<Growing>,
     /// Where the time goes, if that is kept.
@@ -111,8 +102,6 @@ impl Kernel {
             }
             _ => None,
         };
-        let with_solids = solids.as_ref().is_some_and(|solids| solids.in_every_cell);
-        let step = Pipeline::new(gpu, &recipe, Work::Step { with_solids, with_loads: false })?;
         let face_cells = recipe.face_cells();
         let copy = || {
             let make = |binding| {
@@ -132,15 +121,7 @@ impl Kernel {
             list_count: 0,
             tasks: Tasks::new(gpu)?,
             driven,
-            step,
-            step_with_loads: OnceCell::new(),
-            first_step: OnceCell::new(),
-            first_step_with_loads: OnceCell::new(),
-            step_listed: OnceCell::new(),
-            step_listed_with_loads: OnceCell::new(),
-            observe: OnceCell::new(),
-            summary: OnceCell::new(),
-            gather: OnceCell::new(),
+            pipelines: RefCell::default(),
             seen: RefCell::new(Growing::new(gpu, "what is read back")?),
             watch: Watch::default(),
             gpu: Arc::clone(gpu),
@@ -159,11 +140,6 @@ impl Kernel {
     /// The device.
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu
-    }
-
-    /// Bytes of memory on the device that the populations take.
-    pub fn population_bytes(&self) -> u64 {
-        self.layout.bytes_of_both()
     }
 
     /// Whether to keep the times of [`Self::times`], for which the device is waited for after each part
@@ -187,16 +163,14 @@ impl Kernel {
         }
     }
 
-    pub(super) fn pipeline<'a>(
-        &'a self,
-        cell: &'a OnceCell<Pipeline>,
-        work: Work,
-    ) -> Result<&'a Pipeline, KernelError> {
-        if cell.get().is_none() {
-            let made = Pipeline::new(&self.gpu, &self.recipe(), work)?;
-            let _ = cell.set(made);
+    /// The pipeline for `work`, made when it is first asked for.
+    pub(super) fn pipeline(&self, work: Work) -> Result<Arc<Pipeline>, KernelError> {
+        if let Some(made) = self.pipelines.borrow().get(&work) {
+            return Ok(Arc::clone(made));
         }
-        cell.get().ok_or_else(|| self.gpu.failed("a pipeline was not kept".to_owned()))
+        let made = Arc::new(Pipeline::new(&self.gpu, &self.recipe(), work)?);
+        self.pipelines.borrow_mut().insert(work, Arc::clone(&made));
+        Ok(made)
     }
 
     /// Starts again from populations before a collision, one set per cell.

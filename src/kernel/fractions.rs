@@ -31,15 +31,7 @@ pub fn solid_fractions_on_device(
         Binding::Balls => vec![given.resource()],
         _ => vec![found.resource()],
     })?;
-    gpu.checked(|| {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(pipeline.raw());
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(count(rows.len().div_ceil(64)), 1, 1);
-        drop(pass);
-        gpu.queue.submit([encoder.finish()]);
-    })?;
+    pipeline.run(gpu, &group, [count(rows.len().div_ceil(64)), 1, 1])?;
     let bytes = gpu.read(found.buffer(), 4 * rows.len() as u64)?;
     Ok(bytemuck::cast_slice::<u8, f32>(&bytes).iter().copied().map(f64::from).collect())
 }

@@ -12,7 +12,7 @@
 //! | `solids.rs`, `touches.rs` | the solids on the device |
 //! | `movable.rs`, `covering.rs`, `wgsl/{cover,fraction,resolve}.wgsl` | what movable solids cover, found on the device |
 //! | `coverage.rs` | the same in double precision, where none can move and for the velocities that covered cells start with |
-//! | `wgsl/moments_kept.wgsl`, `wgsl/gather.wgsl` | force and torque on each solid, always added up in the same order |
+//! | `gathered.rs`, `wgsl/{gather,loads,grips}.wgsl`, `wgsl/moments_kept.wgsl` | force and torque on each solid, and how it holds the fluid, always added up in the same order |
 //! | `fluid.rs`, `steps.rs`, `observed.rs`, `state.rs` | [`Kernel`]: how it starts, its steps, what can be seen, what is saved |
 //!
 //! The populations are kept as they are after a collision, less their weights, direction by direction,
@@ -40,6 +40,7 @@ mod error;
 mod field;
 mod fluid;
 mod fractions;
+mod gathered;
 mod layout;
 mod memory;
 mod movable;

@@ -60,8 +60,9 @@ pub(super) struct Movable {
     /// Cells in which several solids meet.
     pub(super) meetings: DeviceList,
     pipelines: [Pipeline; 5],
-    parts: u32,
-    room: Vec<Room>,
+    /// Workgroups to one solid.
+    pub(super) parts: u32,
+    solids: u32,
 }
 
 impl Movable {
@@ -71,7 +72,7 @@ impl Movable {
         gpu: &Gpu,
         recipe: &Recipe<'_>,
         phase: &SolidPhase,
-        touches: &mut super::touches::Touches,
+        touches: &mut Touches,
         in_every_cell: bool,
     ) -> Result<Self, KernelError> {
         use Binding::{
@@ -121,7 +122,7 @@ impl Movable {
         let shared = (all / 2).min(cells);
         let mut movable = Movable {
             slots: words("records of cells", cells)?,
-            records: Table::new(gpu, recipe.layout.store, "records of covered cells", 4)?,
+            records: Table::new(gpu, recipe.layout.store, "records of covered cells")?,
             excess: words("records of cells in which solids meet", 8 * shared)?,
             given: Growing::new(gpu, "given solid fractions")?,
             rows: words("rows of cells about solids", 2 * u64::from(rows))?,
@@ -136,29 +137,18 @@ impl Movable {
             meetings: list("cells in which solids meet", shared, 32)?,
             pipelines,
             parts,
-            room,
+            solids: count(room.len()),
         };
         let rows = usize::try_from(all).unwrap_or(usize::MAX);
         movable.records.reserve(gpu, rows)?;
-        touches.reserve(gpu, rows, phase.solids.len())?;
+        touches.reserve(gpu, rows, room)?;
         movable.given.fill(gpu, &given(&phase.solids))?;
         Ok(movable)
     }
 
-    /// Uploads where the solids are.
-    pub(super) fn upload(
-        &self,
-        gpu: &Gpu,
-        solids: &[Solid],
-        touches: &mut Touches,
-    ) -> Result<(), KernelError> {
-        debug_assert_eq!(solids.len(), self.room.len(), "as many solids as before");
-        touches.place(gpu, solids, &self.room)
-    }
-
     /// Has the device find what they cover there. Does not wait for it.
     pub(super) fn find(&self, gpu: &Gpu, touches: &Touches) -> Result<(), KernelError> {
-        let solids = count(self.room.len());
+        let solids = self.solids;
         if solids == 0 {
             return Ok(());
         }

@@ -13,7 +13,7 @@ use super::fluid::Kernel;
 use super::layout::Layout;
 use super::numbers::count;
 use super::pipeline::Pipeline;
-use super::steps::dispatch;
+use super::steps::groups_of;
 use super::streaming::weight;
 
 /// Numbers that are read of a cell: its populations and its weight `B`.
@@ -56,7 +56,7 @@ impl Kernel {
 
     /// The same, and the total solid fraction of each cell, at most 1: the one that its next collision uses.
     pub fn states(&self, cells: &[usize]) -> Result<Vec<([f64; Q], f64)>, KernelError> {
-        let observe = self.pipeline(&self.observe, Work::Observe)?;
+        let observe = self.pipeline(Work::Observe)?;
         let mut found = Vec::with_capacity(cells.len());
         let most = usize::try_from(self.gpu.facts().max_binding_bytes).unwrap_or(usize::MAX);
         for slice in cells.chunks(SLICE.min(most / (4 * SEEN)).max(1)) {
@@ -66,7 +66,7 @@ impl Kernel {
             let bytes = (slice.len() * SEEN * 4) as u64;
             self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
             let count = count(slice.len());
-            self.look(observe, &list, [count, 1, u32::from(self.is_collided), 0], count)?;
+            self.look(&observe, &list, [count, 1, u32::from(self.is_collided), 0], count)?;
             let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
             let values: &[f32] = bytemuck::cast_slice(&bytes);
             found.extend(values.chunks_exact(SEEN).map(|seen| {
@@ -103,26 +103,19 @@ impl Kernel {
         count: u32,
     ) -> Result<(), KernelError> {
         self.gpu.queue.write_buffer(&self.tasks.observed, 0, bytemuck::bytes_of(&task));
-        let group = self.bind(pipeline, &self.tasks.observed, Some(list.buffer()))?;
-        self.gpu.checked(|| {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(pipeline.raw());
-            pass.set_bind_group(0, &group, &[]);
-            dispatch(&mut pass, count);
-            drop(pass);
-            self.gpu.queue.submit([encoder.finish()]);
-        })
+        let task = Some(&self.tasks.observed);
+        let group = self.bind(self.current, pipeline, task, Some(list.buffer()))?;
+        pipeline.run(&self.gpu, &group, groups_of(count))
     }
 
     /// Sums and extremes over the box.
     pub fn summary(&self) -> Result<Summary, KernelError> {
-        let summary = self.pipeline(&self.summary, Work::Summary)?;
+        let summary = self.pipeline(Work::Summary)?;
         let strands = self.recipe().strands();
         let bytes = u64::from(strands) * 32;
         self.seen.borrow_mut().reserve(&self.gpu, bytes)?;
         let task = [self.layout.count, 0, u32::from(self.is_collided), 0];
-        self.look(summary, &self.list, task, strands)?;
+        self.look(&summary, &self.list, task, strands)?;
         let bytes = self.gpu.read(self.seen.borrow().buffer(), bytes)?;
         Ok(Summary::of(bytemuck::cast_slice(&bytes), &self.layout))
     }

@@ -17,6 +17,7 @@ impl Pipeline {
     /// The pipeline for `work`. Errors if the driver refuses the shader.
     pub(super) fn new(gpu: &Gpu, recipe: &Recipe<'_>, work: Work) -> Result<Self, KernelError> {
         let mut bindings = vec![Binding::Old];
+        let of_touches = [Binding::Shares, Binding::Weights, Binding::Solids, Binding::Counts];
         match work {
             Work::Step { .. } => bindings.push(Binding::New),
             Work::StepListed { .. } => {
@@ -24,17 +25,22 @@ impl Pipeline {
             }
             Work::Observe => bindings.extend([Binding::Task, Binding::CellList, Binding::Seen]),
             Work::Summary => bindings.extend([Binding::Task, Binding::Seen]),
+            Work::Loads => {
+                bindings = vec![Binding::Moments, Binding::Links, Binding::Loads];
+                bindings.extend(of_touches);
+            }
+            Work::Grips { .. } => {
+                bindings.extend(of_touches);
+                bindings.extend([Binding::CellList, Binding::Seen]);
+            }
         }
         if recipe.takes_drive(work) {
             bindings.push(Binding::Drive);
         }
-        if outgoing::has_any(&recipe.setup.domain) {
-            match work {
-                Work::Step { .. } | Work::StepListed { is_first: true, .. } => {}
-                Work::StepListed { .. } => {
-                    bindings.extend([Binding::Outgoing, Binding::NewOutgoing]);
-                }
-                Work::Observe | Work::Summary => bindings.push(Binding::Outgoing),
+        if work.has_faces() && outgoing::has_any(&recipe.setup.domain) {
+            bindings.push(Binding::Outgoing);
+            if matches!(work, Work::StepListed { .. }) {
+                bindings.push(Binding::NewOutgoing);
             }
         }
         let (solids, with_loads) = recipe.solids_in(work);
@@ -62,6 +68,24 @@ impl Pipeline {
 
     pub(super) fn raw(&self) -> &wgpu::ComputePipeline {
         &self.raw
+    }
+
+    /// Has it run by itself. Does not wait for the device.
+    pub(super) fn run(
+        &self,
+        gpu: &Gpu,
+        group: &wgpu::BindGroup,
+        [x, y, z]: [u32; 3],
+    ) -> Result<(), KernelError> {
+        gpu.checked(|| {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            let mut pass = encoder.begin_compute_pass(&Default::default());
+            pass.set_pipeline(&self.raw);
+            pass.set_bind_group(0, group, &[]);
+            pass.dispatch_workgroups(x, y, z);
+            drop(pass);
+            gpu.queue.submit([encoder.finish()]);
+        })
     }
 
     /// Binds what `resources` has for each binding, whole: of the populations several.

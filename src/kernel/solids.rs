@@ -14,7 +14,7 @@ use super::error::KernelError;
 use super::field::Field;
 use super::movable::Movable;
 use super::numbers::count;
-use super::touches::{Room, Touches};
+use super::touches::Touches;
 
 /// Above this share of covered cells the solid part is worked out in every cell; below it, only in the
 /// listed ones, a second time.
@@ -59,7 +59,7 @@ impl Solids {
         loads.reserve(gpu, 32 * phase.solids.len() as u64)?;
         let kept = if recipe.solids == SolidData::Moving {
             let movable = Movable::new(gpu, recipe, phase, &mut touches, in_every_cell)?;
-            movable.upload(gpu, &phase.solids, &mut touches)?;
+            touches.place(gpu, &phase.solids)?;
             movable.find(gpu, &touches)?;
             Kept::Movable(Box::new(movable))
         } else {
@@ -70,7 +70,7 @@ impl Solids {
             slots.write(gpu, 0, bytemuck::cast_slice(coverage.slots()));
             let tables = coverage.tables(phase, tau);
             touches.fill(gpu, &tables)?;
-            touches.place(gpu, &phase.solids, &Room::one_after_another(&tables.counts))?;
+            touches.place(gpu, &phase.solids)?;
             Kept::Fixed(Box::new([weights, slots]))
         };
         let lists = !in_every_cell && recipe.solids != SolidData::Moving;
@@ -102,8 +102,8 @@ impl Solids {
 
     /// Uploads where movable solids are now.
     pub(super) fn upload(&mut self, gpu: &Gpu, phase: &SolidPhase) -> Result<(), KernelError> {
-        match &self.kept {
-            Kept::Movable(movable) => movable.upload(gpu, &phase.solids, &mut self.touches),
+        match self.kept {
+            Kept::Movable(_) => self.touches.place(gpu, &phase.solids),
             Kept::Fixed(_) => Ok(()),
         }
     }

@@ -1,7 +1,8 @@
-//! Steps of the fluid, and the loads on the solids.
+//! Steps of the fluid.
+
+use std::sync::Arc;
 
 use super::bindings::Binding;
-use super::buffers::Growing;
 use super::compose::{ROW, Work};
 use super::error::KernelError;
 use super::field::Field;
@@ -39,68 +40,33 @@ impl Kernel {
 
     /// The first step: the populations are there before their collision.
     fn first_step(&mut self, with_loads: bool) -> Result<(), KernelError> {
-        let since = self.watch.begin();
         // All cells, and again those in which several solids meet: what is more of them goes by the list.
         let task = [self.layout.count, 0, 0, 0];
         self.gpu.queue.write_buffer(&self.tasks.all, 0, bytemuck::bytes_of(&task));
-        let with_loads = with_loads && self.has_solids();
-        let listed = self.listed_pipeline(with_loads, true)?;
-        let all = self.bind(listed, &self.tasks.all, None)?;
-        let movable = self.solids.as_ref().and_then(Solids::movable);
-        let meetings = match movable {
-            Some(movable) => {
-                let DeviceList { cells, task, groups_at } = &movable.meetings;
-                let group = self.bind(listed, task, Some(cells.buffer()))?;
-                Some((group, &movable.groups, *groups_at))
-            }
-            None => None,
-        };
-        self.gpu.checked(|| {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(listed.raw());
-            pass.set_bind_group(0, &all, &[]);
-            dispatch(&mut pass, self.layout.count);
-            if let Some((group, groups, groups_at)) = &meetings {
-                pass.set_bind_group(0, group, &[]);
-                pass.dispatch_workgroups_indirect(groups, *groups_at);
-            }
-            drop(pass);
-            self.gpu.queue.submit([encoder.finish()]);
-        })?;
-        self.watch.wait(&self.gpu, since, |times| &mut times.fluid)?;
-        if with_loads {
-            self.submit_loads()?;
-        }
-        self.current = 1 - self.current;
+        self.submit_steps(1, with_loads)?;
         self.is_collided = true;
         // The tasks say from now on that the populations are kept as they are after a collision.
         self.list_cells()
     }
 
-    /// Encodes and submits `steps` steps.
+    /// Encodes and submits `steps` steps, the first alone.
     fn submit_steps(&mut self, steps: u64, with_loads: bool) -> Result<(), KernelError> {
         let since = self.watch.begin();
         let with_loads = with_loads && self.has_solids();
         let before = steps - u64::from(with_loads);
-        let [nx, ny, nz] = self.layout.cells;
-        let [along, across] = self.recipe().workgroup();
-        let kinds = [self.passes(false)?, self.passes(with_loads)?];
+        let parts =
+            |is_needed: bool, with_loads| is_needed.then(|| self.parts(with_loads)).transpose();
+        let kinds = [parts(before > 0, false)?, parts(with_loads, true)?];
         self.gpu.checked(|| {
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
             for number in 0..steps {
-                let passes = &kinds[usize::from(number >= before)];
-                let parity = usize::from(number % 2 == 1);
-                pass.set_pipeline(passes.all.raw());
-                pass.set_bind_group(0, &passes.all_groups[parity], &[]);
-                pass.dispatch_workgroups(nx.div_ceil(along), ny.div_ceil(across), nz);
-                for list in &passes.lists {
-                    pass.set_pipeline(list.pipeline.raw());
-                    pass.set_bind_group(0, &list.groups[parity], &[]);
-                    match list.length {
-                        Length::Known(count) => dispatch(&mut pass, count),
-                        Length::OnDevice(groups, at) => {
+                for part in kinds[usize::from(number >= before)].iter().flatten() {
+                    pass.set_pipeline(part.pipeline.raw());
+                    pass.set_bind_group(0, &part.groups[usize::from(number % 2 == 1)], &[]);
+                    match part.size {
+                        Size::Known([x, y, z]) => pass.dispatch_workgroups(x, y, z),
+                        Size::OnDevice(groups, at) => {
                             pass.dispatch_workgroups_indirect(groups, at);
                         }
                     }
@@ -124,96 +90,56 @@ impl Kernel {
         self.solids.as_ref().is_some_and(|solids| solids.solid_count > 0)
     }
 
-    /// The pipelines of a step with their bindings, from either copy.
-    fn passes(&self, with_loads: bool) -> Result<Passes<'_>, KernelError> {
-        let in_every_cell = self.solids.as_ref().is_some_and(|solids| solids.in_every_cell);
-        let all = if with_loads && in_every_cell {
-            let work = Work::Step { with_solids: true, with_loads: true };
-            self.pipeline(&self.step_with_loads, work)?
+    /// The parts of a step in their order, those of listed cells over the one of all cells.
+    fn parts(&self, with_loads: bool) -> Result<Vec<Part<'_>>, KernelError> {
+        let (solids, is_first) = (self.solids.as_ref(), !self.is_collided);
+        let in_every_cell = solids.is_some_and(|solids| solids.in_every_cell);
+        let of_list = Work::StepListed { with_loads, is_first };
+        let mut parts = Vec::new();
+        if is_first {
+            let size = Size::Known(groups_of(self.layout.count));
+            parts.push(self.part(of_list, Some(&self.tasks.all), None, size)?);
         } else {
-            &self.step
-        };
-        let copies = [self.current, 1 - self.current];
-        let [first, second] = copies.map(|from| self.bind_from(from, all, None, None));
-        let all_groups = [first?, second?];
-        let mut lists = Vec::new();
-        let mut add = |task, cells: &Growing, length| -> Result<(), KernelError> {
-            let pipeline = self.listed_pipeline(with_loads, false)?;
-            let bind = |from| self.bind_from(from, pipeline, Some(task), Some(cells.buffer()));
-            let [first, second] = copies.map(bind);
-            lists.push(List { pipeline, groups: [first?, second?], length });
-            Ok(())
-        };
-        if self.list_count > 0 {
-            add(&self.tasks.listed, &self.list, Length::Known(self.list_count))?;
+            let with_loads = with_loads && in_every_cell;
+            let [nx, ny, nz] = self.layout.cells;
+            let [along, across] = self.recipe().workgroup();
+            let size = Size::Known([nx.div_ceil(along), ny.div_ceil(across), nz]);
+            let work = Work::Step { with_solids: in_every_cell, with_loads };
+            parts.push(self.part(work, None, None, size)?);
+        }
+        if !is_first && self.list_count > 0 {
+            let size = Size::Known(groups_of(self.list_count));
+            parts.push(self.part(of_list, Some(&self.tasks.listed), None, size)?);
         }
         // After those at faces, so that what several solids do in a cell there stands.
-        if let Some(movable) = self.solids.as_ref().and_then(Solids::movable) {
-            let alone = (!in_every_cell).then_some(&movable.alone);
-            for list in alone.into_iter().chain([&movable.meetings]) {
-                let length = Length::OnDevice(&movable.groups, list.groups_at);
-                add(&list.task, &list.cells, length)?;
+        if let Some(movable) = solids.and_then(Solids::movable) {
+            let alone = (!is_first && !in_every_cell).then_some(&movable.alone);
+            for DeviceList { cells, task, groups_at } in
+                alone.into_iter().chain([&movable.meetings])
+            {
+                let size = Size::OnDevice(&movable.groups, *groups_at);
+                parts.push(self.part(of_list, Some(task), Some(cells.buffer()), size)?);
             }
         }
-        Ok(Passes { all, all_groups, lists })
+        Ok(parts)
     }
 
-    fn listed_pipeline(&self, with_loads: bool, is_first: bool) -> Result<&Pipeline, KernelError> {
-        let work = Work::StepListed { with_loads, is_first };
-        let cell = match (is_first, with_loads) {
-            (true, false) => &self.first_step,
-            (true, true) => &self.first_step_with_loads,
-            (false, false) => &self.step_listed,
-            (false, true) => &self.step_listed_with_loads,
-        };
-        self.pipeline(cell, work)
-    }
-
-    /// Adds up the loads of the step that was submitted last.
-    fn submit_loads(&self) -> Result<(), KernelError> {
-        let since = self.watch.begin();
-        let Some(solids) = &self.solids else { return Ok(()) };
-        if self.gather.get().is_none() {
-            let bindings = vec![
-                Binding::Shares,
-                Binding::Weights,
-                Binding::Solids,
-                Binding::Counts,
-                Binding::Moments,
-                Binding::Loads,
-                Binding::Links,
-            ];
-            let shader = self.recipe().gather();
-            let gather = Pipeline::of(&self.gpu, &shader, "gather", bindings)?;
-            let _ = self.gather.set(gather);
-        }
-        let Some(gather) = self.gather.get() else { return Ok(()) };
-        let resources = |at| solids.resource(at).into_iter().collect();
-        let group = gather.bind(&self.gpu, resources)?;
-        self.gpu.checked(|| {
-            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(gather.raw());
-            pass.set_bind_group(0, &group, &[]);
-            let groups = solids.solid_count;
-            pass.dispatch_workgroups(groups.min(65_535), groups.div_ceil(65_535), 1);
-            drop(pass);
-            self.gpu.queue.submit([encoder.finish()]);
-        })?;
-        self.watch.wait(&self.gpu, since, |times| &mut times.forces)
-    }
-
-    pub(super) fn bind(
-        &self,
-        pipeline: &Pipeline,
-        task: &wgpu::Buffer,
+    /// A part of a step, from either copy.
+    fn part<'a>(
+        &'a self,
+        work: Work,
+        task: Option<&wgpu::Buffer>,
         list: Option<&wgpu::Buffer>,
-    ) -> Result<wgpu::BindGroup, KernelError> {
-        self.bind_from(self.current, pipeline, Some(task), list)
+        size: Size<'a>,
+    ) -> Result<Part<'a>, KernelError> {
+        let pipeline = self.pipeline(work)?;
+        let bind = |from| self.bind(from, &pipeline, task, list);
+        let groups = [bind(self.current)?, bind(1 - self.current)?];
+        Ok(Part { pipeline, groups, size })
     }
 
     /// The bindings of a pipeline that starts from copy `from`.
-    fn bind_from(
+    pub(super) fn bind(
         &self,
         from: usize,
         pipeline: &Pipeline,
@@ -242,35 +168,22 @@ impl Kernel {
     }
 }
 
-/// The pipelines of one step.
-struct Passes<'a> {
-    /// Of all cells.
-    all: &'a Pipeline,
-    all_groups: [wgpu::BindGroup; 2],
-    /// Of listed cells.
-    lists: Vec<List<'a>>,
-}
-
-/// Work on listed cells.
-struct List<'a> {
-    pipeline: &'a Pipeline,
+/// A part of a step.
+struct Part<'a> {
+    pipeline: Arc<Pipeline>,
     groups: [wgpu::BindGroup; 2],
-    length: Length<'a>,
+    size: Size<'a>,
 }
 
-/// How many cells are listed.
-#[derive(Clone, Copy)]
-enum Length<'a> {
-    Known(u32),
-    /// The numbers of workgroups stand in a buffer, so many bytes from its start.
+/// How many workgroups it takes.
+enum Size<'a> {
+    Known([u32; 3]),
+    /// The numbers stand in a buffer, so many bytes from its start.
     OnDevice(&'a wgpu::Buffer, u64),
 }
 
-/// One invocation for each of `count` things, in workgroups of 64.
-pub(super) fn dispatch(pass: &mut wgpu::ComputePass<'_>, count: u32) {
-    if count > 0 {
-        let groups = count.div_ceil(64);
-        let row = ROW / 64;
-        pass.dispatch_workgroups(groups.min(row), groups.div_ceil(row), 1);
-    }
+/// Workgroups of 64 with one invocation for each of `count` things.
+pub(super) fn groups_of(count: u32) -> [u32; 3] {
+    let (groups, row) = (count.div_ceil(64), ROW / 64);
+    [groups.min(row), groups.div_ceil(row), 1]
 }

@@ -13,17 +13,19 @@ use super::device::Gpu;
 use super::error::KernelError;
 use super::layout::{MAX_TEXTURE_BYTES, Store, WORD};
 
+/// Numbers in a row.
+const COLUMNS: usize = 4;
+
 /// Rows in a line of a texture.
 const LINE: usize = 2048;
 
 /// Lines in a plane of a texture: what every adapter allows.
 const LINES: usize = 2048;
 
-/// Rows of so many numbers of 32 bits.
+/// Rows of four numbers of 32 bits.
 #[derive(Debug)]
 pub(super) struct Table {
     label: &'static str,
-    columns: usize,
     kept: Kept,
 }
 
@@ -34,31 +36,25 @@ enum Kept {
 }
 
 impl Table {
-    pub(super) fn new(
-        gpu: &Gpu,
-        store: Store,
-        label: &'static str,
-        columns: usize,
-    ) -> Result<Self, KernelError> {
+    pub(super) fn new(gpu: &Gpu, store: Store, label: &'static str) -> Result<Self, KernelError> {
         let kept = match store {
             Store::Buffers => Kept::Buffer(Growing::new(gpu, label)?),
-            Store::Textures => texture(gpu, label, columns, 1)?,
+            Store::Textures => texture(gpu, label, 1)?,
         };
-        Ok(Table { label, columns, kept })
+        Ok(Table { label, kept })
     }
 
     /// Makes room for `rows` rows. What it held is lost where it had fewer.
     pub(super) fn reserve(&mut self, gpu: &Gpu, rows: usize) -> Result<(), KernelError> {
         match &mut self.kept {
-            Kept::Buffer(buffer) => buffer.reserve(gpu, WORD * (rows * self.columns) as u64),
+            Kept::Buffer(buffer) => buffer.reserve(gpu, WORD * (rows * COLUMNS) as u64),
             Kept::Texture { texture: old, .. } => {
                 let lines = rows.div_ceil(LINE);
-                let has =
-                    old.height() as usize * (old.depth_or_array_layers() as usize / self.columns);
+                let has = old.height() as usize * (old.depth_or_array_layers() as usize / COLUMNS);
                 if lines <= has {
                     return Ok(());
                 }
-                let needed = WORD * (lines.next_multiple_of(LINES) * LINE * self.columns) as u64;
+                let needed = WORD * (lines.next_multiple_of(LINES) * LINE * COLUMNS) as u64;
                 if lines > LINES && needed > MAX_TEXTURE_BYTES {
                     return Err(KernelError::TooLarge {
                         what: self.label,
@@ -67,7 +63,7 @@ impl Table {
                         adapter: gpu.facts().name.clone(),
                     });
                 }
-                self.kept = texture(gpu, self.label, self.columns, lines)?;
+                self.kept = texture(gpu, self.label, lines)?;
                 Ok(())
             }
         }
@@ -80,13 +76,13 @@ impl Table {
         match &mut self.kept {
             Kept::Buffer(buffer) => buffer.fill(gpu, numbers),
             Kept::Texture { texture, .. } => {
-                for (layer, numbers) in numbers.chunks(LINE * LINES * self.columns).enumerate() {
-                    let lines = (numbers.len() / self.columns).div_ceil(LINE);
+                for (layer, numbers) in numbers.chunks(LINE * LINES * COLUMNS).enumerate() {
+                    let lines = (numbers.len() / COLUMNS).div_ceil(LINE);
                     let mut plane = vec![0_u32; lines * LINE];
-                    for column in 0..self.columns {
-                        let values = numbers.iter().skip(column).step_by(self.columns);
+                    for column in 0..COLUMNS {
+                        let values = numbers.iter().skip(column).step_by(COLUMNS);
                         plane.iter_mut().zip(values).for_each(|(place, value)| *place = *value);
-                        write_plane(gpu, texture, layer * self.columns + column, &plane);
+                        write_plane(gpu, texture, layer * COLUMNS + column, &plane);
                     }
                 }
                 Ok(())
@@ -103,12 +99,7 @@ impl Table {
     }
 }
 
-fn texture(
-    gpu: &Gpu,
-    label: &'static str,
-    columns: usize,
-    lines: usize,
-) -> Result<Kept, KernelError> {
+fn texture(gpu: &Gpu, label: &'static str, lines: usize) -> Result<Kept, KernelError> {
     let narrow = |number: usize| u32::try_from(number).unwrap_or(u32::MAX);
     gpu.checked(|| {
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
@@ -116,7 +107,7 @@ fn texture(
             size: Extent3d {
                 width: narrow(LINE),
                 height: narrow(lines.min(LINES)),
-                depth_or_array_layers: narrow(columns * lines.div_ceil(LINES)),
+                depth_or_array_layers: narrow(COLUMNS * lines.div_ceil(LINES)),
             },
             mip_level_count: 1,
             sample_count: 1,

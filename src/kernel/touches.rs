@@ -86,7 +86,7 @@ impl Room {
 
 impl Room {
     /// The room of solids that have just what they need.
-    pub(super) fn one_after_another(counts: &[u32]) -> Vec<Room> {
+    fn one_after_another(counts: &[u32]) -> Vec<Room> {
         let starts = counts.iter().scan(1, |next, touches| {
             let first = *next;
             *next += touches;
@@ -112,7 +112,7 @@ fn whole(number: f64) -> u32 {
 impl Touches {
     pub(super) fn new(gpu: &Gpu, store: Store) -> Result<Self, KernelError> {
         let buffer = |label| Growing::new(gpu, label);
-        let table = |label| Table::new(gpu, store, label, 4);
+        let table = |label| Table::new(gpu, store, label);
         Ok(Touches {
             solids: buffer("motion of solids")?,
             counts: buffer("numbers of touches")?,
@@ -137,22 +137,25 @@ impl Touches {
         })
     }
 
-    /// Makes room for `rows` touches, the row of none among them.
+    /// Makes room for `rows` touches, the row of none among them, of solids that have `room` of them.
     pub(super) fn reserve(
         &mut self,
         gpu: &Gpu,
         rows: usize,
-        solids: usize,
+        room: Vec<Room>,
     ) -> Result<(), KernelError> {
         self.shares.reserve(gpu, rows)?;
         self.moments.reserve(gpu, rows)?;
         self.links.reserve(gpu, 4 * rows as u64)?;
         self.weights.reserve(gpu, 4 * rows as u64)?;
-        self.counts.reserve(gpu, 4 * solids as u64)
+        self.counts.reserve(gpu, 4 * room.len() as u64)?;
+        self.room = room;
+        Ok(())
     }
 
     /// Uploads the touches of solids that stay where they are.
     pub(super) fn fill(&mut self, gpu: &Gpu, tables: &Tables) -> Result<(), KernelError> {
+        self.room = Room::one_after_another(&tables.counts);
         self.moments.reserve(gpu, tables.shares.len())?;
         self.shares.fill(gpu, &tables.shares)?;
         self.links.fill(gpu, &tables.links)?;
@@ -161,16 +164,10 @@ impl Touches {
     }
 
     /// Uploads where the solids are and how they move.
-    pub(super) fn place(
-        &mut self,
-        gpu: &Gpu,
-        solids: &[Solid],
-        room: &[Room],
-    ) -> Result<(), KernelError> {
-        let rows: Vec<Row> =
-            solids.iter().zip(room).map(|(solid, room)| row(solid, room)).collect();
-        self.room.clear();
-        self.room.extend_from_slice(room);
+    pub(super) fn place(&mut self, gpu: &Gpu, solids: &[Solid]) -> Result<(), KernelError> {
+        debug_assert_eq!(solids.len(), self.room.len(), "as many solids as before");
+        let placed = solids.iter().zip(&self.room);
+        let rows: Vec<Row> = placed.map(|(solid, room)| row(solid, room)).collect();
         self.solids.fill(gpu, &rows)
     }
 

@@ -15,6 +15,8 @@ pub struct KernelTimes {
     pub coverage: Spent,
     /// Loads on the solids.
     pub forces: Spent,
+    /// How free solids hold the fluid before a collision, and back with it.
+    pub grips: Spent,
     /// Tables to the device and loads back.
     pub transfers: Spent,
 }

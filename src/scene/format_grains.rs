@@ -116,8 +116,7 @@ pub struct SolidSection {
     /// grains: within 3 % of the drag at 14 to 16 cells per diameter and tau from 0.55 to 1 where the default is up to 25 %
     /// off; it is not for free grains. Free grains with `full_bounce_back` are coupled implicitly: the velocity that they
     /// have in a collision is solved for before it. At 4 and 6 cells per diameter and tau = 0.7 they then settle with 1.04
-    /// and 0.99 of the exact velocity, with the default with 1.25 and 1.09 (tests/oracle/implicit_coupling.rs). Not on the
-    /// engine `wgpu`.
+    /// and 0.99 of the exact velocity, with the default with 1.25 and 1.09 (tests/oracle/implicit_coupling.rs).
     #[serde(default)]
     pub operator: OperatorName,
     /// How the solid fraction of a cell is found: `exact` (the default), `sampled`, or `linear` in the distance between

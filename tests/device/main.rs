@@ -12,6 +12,8 @@ mod conformance;
 mod driven;
 #[path = "../edges/mod.rs"]
 mod edges;
+#[path = "../implicit/mod.rs"]
+mod implicit;
 #[path = "../mixed/mod.rs"]
 mod mixed;
 #[path = "../parity/mod.rs"]
@@ -23,6 +25,7 @@ mod trials;
 
 mod conformance_candidates;
 mod drive;
+mod implicit_coupling;
 mod kernel_conformance;
 mod kernel_engine;
 mod kernel_extremes;
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
     for engine in HELD {
         for (file, claims) in [
             ("drive", drive::CLAIMS),
+            ("implicit_coupling", implicit_coupling::CLAIMS),
             ("kernel_engine", kernel_engine::CLAIMS),
             ("kernel_extremes", kernel_extremes::CLAIMS),
             ("kernel_parity", kernel_parity::CLAIMS),
@@ -54,6 +58,7 @@ fn main() -> ExitCode {
         }
     }
     for (file, claims) in [
+        ("implicit_coupling", implicit_coupling::OF_KERNEL),
         ("kernel_conformance", kernel_conformance::CLAIMS),
         ("kernel_engine", kernel_engine::OF_KERNEL),
         ("kernel_fractions", kernel_fractions::CLAIMS),

@@ -40,7 +40,7 @@ pub struct Rounding {
     pub epsilon: f64,
     /// What is rounded in a cell besides populations less their weights. Where the engine has double precision it is the
     /// oracle that rounds most: it keeps populations with their weights, the sum of which is 1.
-    kept: f64,
+    pub kept: f64,
 }
 
 impl Rounding {
@@ -258,7 +258,7 @@ impl Both {
 
 /// How far the weight `B` may be off in a cell that a moving ball covers: on a device its solid fraction is found in
 /// single precision, to within the bound of `kernel_fractions.rs`; where no solid moves it is found in double precision and told.
-fn weight_error(Rounding { epsilon, kept }: Rounding, setup: &Setup) -> f64 {
+pub fn weight_error(Rounding { epsilon, kept }: Rounding, setup: &Setup) -> f64 {
     let still = Vec3::zeros();
     let Some(phase) = &setup.solid_phase else { return 0.0 };
     let moves = |solid: &Solid| solid.velocity != still || solid.angular_velocity != still;

@@ -14,6 +14,8 @@ mod conformance;
 mod driven;
 #[path = "../edges/mod.rs"]
 mod edges;
+#[path = "../implicit/mod.rs"]
+mod implicit;
 #[path = "../mixed/mod.rs"]
 mod mixed;
 #[path = "../scenes/mod.rs"]
