@@ -3,6 +3,7 @@
 //! No record or checkpoint holds a broken state: the loop checks the state before it writes, and the guard does besides,
 //! every 16 steps.
 
+mod end;
 pub mod steady;
 
 use std::fs;
@@ -10,91 +11,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use thiserror::Error;
-
-use crate::checkpoint::{self, CheckpointError, Progress};
+use crate::checkpoint::{self, Progress};
 use crate::courses::Lookout;
-use crate::engine::{Coupled, EngineStop};
+use crate::engine::Coupled;
 use crate::output::folder::RunFolder;
 use crate::output::records::Recorder;
 use crate::scene::names;
 use crate::scene::{Interval, OutputInterval, Scene};
-use crate::stopped_grain::{self, GrainStop};
+use crate::stopped_grain;
 
-/// A run that could not go on.
-#[derive(Debug, Error)]
-pub enum RunError {
-    /// The guard has stopped it, a free grain cannot be moved, or the device has failed.
-    #[error(transparent)]
-    Stopped(#[from] EngineStop),
-    /// A contact has not held a free grain, or a grain is nowhere.
-    #[error(transparent)]
-    Grain(#[from] Box<GrainStop>),
-    /// The way of a prescribed sphere has ended.
-    #[error("stopped: {said}\n  help: {remedy}")]
-    Met {
-        /// What it has run into.
-        said: String,
-        /// What to do.
-        remedy: String,
-    },
-    /// Its results cannot be written.
-    #[error(
-        "results cannot be written: {0}; what was written before is whole: make room on the disk, or allow \
-         writing there, and go on with `psmrt resume`"
-    )]
-    Write(#[from] io::Error),
-    /// Its state cannot be saved.
-    #[error(
-        "the checkpoint cannot be written: {0}; what was written before is whole: make room on the disk, or \
-         allow writing there, and go on with `psmrt resume`"
-    )]
-    Checkpoint(#[from] CheckpointError),
-    /// A table that a resumed run should go on with is not the one that it has written.
-    #[error("{0}; put it back as it was, or start a new run: nothing has been changed")]
-    Table(io::Error),
-    /// Its folder, or something in it, has been moved or removed while it ran.
-    #[error(
-        "the folder {path}, or a part of it, has been moved or removed while the run wrote into it: {rescue}"
-    )]
-    Gone {
-        /// Where it was.
-        path: String,
-        /// What has been saved elsewhere, and how to go on.
-        rescue: String,
-    },
-}
-
-impl RunError {
-    /// Whether a file or folder that was there has gone.
-    fn misses_a_file(&self) -> bool {
-        let (RunError::Write(error) | RunError::Checkpoint(CheckpointError::File { error, .. })) =
-            self
-        else {
-            return false;
-        };
-        error.kind() == io::ErrorKind::NotFound
-    }
-}
-
-/// Why a run ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
-    /// It has made all the steps that the scene allows, and nothing more was asked of it.
-    Limit,
-    /// It has become steady.
-    Steady {
-        /// What is still to go, see [`steady::History::left`].
-        left: Option<f64>,
-    },
-    /// It has made all the steps that the scene allows and has not become steady.
-    NotSteady {
-        /// The same.
-        left: Option<f64>,
-    },
-    /// The user has interrupted it; its state is saved.
-    Interrupted,
-}
+pub use end::{End, RunError};
 
 /// Sets aside the tables that a run cut off before its first checkpoint has left, so that it can start
 /// again: `box.csv` becomes `box.csv.old`, or `box.csv.old-2` if there is one. Returns their new names.

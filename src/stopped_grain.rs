@@ -3,7 +3,7 @@
 use std::fmt;
 
 use psmrt_reference::coupling::Gravity;
-use psmrt_reference::grains::hold::{self, DEEPEST, Obstacle, Sunk};
+use psmrt_reference::grains::hold::{self, DEEPEST, Sunk, SunkInto};
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::{Vec3, viscosity};
@@ -76,8 +76,8 @@ impl Situation<'_> {
         let units = &self.scene.units;
         let grain = &self.system.grains()[sunk.grain];
         let (obstacle, mass, weaker) = match sunk.obstacle {
-            Obstacle::Plane(plane) => (self.face(plane), grain.mass, sunk.grain),
-            Obstacle::Grain(other) => {
+            SunkInto::Plane(plane) => (self.face(plane), grain.mass, sunk.grain),
+            SunkInto::Grain(other) => {
                 let two = &self.system.grains()[other];
                 let mass = match two.held {
                     true => grain.mass,
@@ -88,7 +88,7 @@ impl Situation<'_> {
                 (format!("grain {other}"), mass, weaker)
             }
         };
-        let is_through = matches!(sunk.obstacle, Obstacle::Plane(_)) && sunk.overlap > sunk.radius;
+        let is_through = matches!(sunk.obstacle, SunkInto::Plane(_)) && sunk.overlap > sunk.radius;
         let failure = format!(
             "grain {} (counted from 0) {} {obstacle}: by {:.3e} m, {:.2} times the radius of grain {weaker}; \
              the limit is {DEEPEST}",

@@ -9,7 +9,7 @@
 #include "psmrt_kit.h"
 
 #define Q 19
-#define KIT_VERSION 2
+#define KIT_VERSION 3
 
 static const int C[Q][3] = {
     {0, 0, 0},  {1, 0, 0},   {-1, 0, 0}, {0, 1, 0},  {0, -1, 0},  {0, 0, 1},  {0, 0, -1},
@@ -135,12 +135,38 @@ static void states(const char *kit, const char *out) {
     kit_write(out, "moments", "equilibrium_moments", m_eq, 2, (size_t[]){at, Q});
 }
 
+/* A cell of solid fraction epsilon > 0 as fluid of graded viscosity. */
+static void graded(double f[Q], double tau, const double *g, double epsilon, const double u_p[3], double force[3]) {
+    double excess = tau - 0.5, open = 1 - epsilon, k = excess * excess / (4 * excess + 0.4);
+    double B = k * epsilon / (open + k * epsilon), rho, j[3], total[3], u[3], s[Q], f_neq[Q], source[Q], half[Q] = {0};
+    double even = open / (open / 2 + excess), odd = 1 / (0.5 + 0.002 * open / excess);
+    s_hat((double[]){even, even, odd, even, even, odd}, s);
+    conserved(f, &rho, j);
+    for (int i = 0; i < 3; i++) {
+        force[i] = -2 * B * (rho * u_p[i] - j[i]);
+        total[i] = (1 - B) * (g ? g[i] : 0) - force[i];
+        u[i] = (j[i] + total[i] / 2) / rho;
+    }
+    equilibrium(rho, u, f_neq);
+    for (int a = 0; a < Q; a++) {
+        f_neq[a] -= f[a];
+        source[a] = W[a] * (3 * (along(a, total) - dot(u, total)) + 9 * along(a, u) * along(a, total));
+    }
+    relaxed(f_neq, s, 0, f);
+    relaxed(source, s, 0, half);
+    for (int a = 0; a < Q; a++) f[a] += source[a] - half[a] / 2;
+}
+
 /* One cell: f becomes f*, force is that on the solid. What is absent is NULL. */
 static void collide(double f[Q], double tau, const double *rates, const double *g, const double *epsilon,
                     const double *u_p, const char *problem, double force[3]) {
     const int superposition = strstr(problem, "superposition") != NULL;
     const int whole = strstr(problem, "full_bounce_back") != NULL;
     double rho, j[3], bare[3], u[3], s[Q], change[Q], *diagonal = NULL, B = 0;
+    if (epsilon && *epsilon > 0 && strstr(problem, "graded_viscosity")) {
+        graded(f, tau, g, *epsilon, u_p, force);
+        return;
+    }
     conserved(f, &rho, j);
     for (int i = 0; i < 3; i++) {
         bare[i] = j[i] / rho;
@@ -193,7 +219,8 @@ static void collisions(const char *kit, const char *out, const char *problem) {
 int main(int count, char **arguments) {
     static const char *const problems[] = {
         "srt", "mrt", "srt_force", "mrt_force", "ps_srt", "ps_mrt", "ps_srt_force", "ps_mrt_force",
-        "ps_srt_superposition", "ps_mrt_superposition", "ps_srt_full_bounce_back", "ps_mrt_full_bounce_back"};
+        "ps_srt_superposition", "ps_mrt_superposition", "ps_srt_full_bounce_back", "ps_mrt_full_bounce_back",
+        "ps_srt_graded_viscosity", "ps_mrt_graded_viscosity"};
     if (count != 3) {
         fprintf(stderr, "usage: %s KIT CANDIDATE\n", arguments[0]);
         return 2;

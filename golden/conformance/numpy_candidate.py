@@ -37,7 +37,9 @@ MISTAKES = """
     viscosity_without_half velocity_without_half_force source_without_half_rate naive_force
     body_force_not_weighted eq5_sign full_bounce_back equilibrium_not_reversed b_is_epsilon b_with_tau fluid_part_not_weighted
     solid_with_half_force solid_at_rest rotation_missing spin_reversed superposition_tau
-    other_operator eq5_for_full_bounce_back full_bounce_back_half_velocity weights_not_shared force_sign force_without_weight torque_arm_not_wrapped
+    other_operator eq5_for_full_bounce_back full_bounce_back_half_velocity
+    graded_drag_with_tau graded_drag_without_two graded_drag_of_noble_torczynski graded_viscosity_of_fluid
+    graded_odd_rate_of_fluid graded_odd_rate_without_open graded_full_cell_kept weights_not_shared force_sign force_without_weight torque_arm_not_wrapped
     arm_not_wrapped torque_about_origin torque_reversed coverage_staircase coverage_linear
     radius_is_diameter coverage_not_updated wall_on_node moving_wall_without_two moving_wall_sign
     moving_wall_density_one free_slip_is_no_slip pressure_sign pressure_without_velocity
@@ -152,6 +154,9 @@ class Candidate:
             pi = eps
         if self.has("pi_rate_is_nu"):
             pi = nu
+        return self.diagonal(e, eps, q, nu, pi, m)
+
+    def diagonal(self, e, eps, q, nu, pi, m):
         zero = 0 * e
         thirteenth = nu if self.has("s_hat_13th") else pi
         diagonal = [zero, e, eps, zero, q, zero, q, zero, q, nu, pi, nu, thirteenth, nu, nu, nu, m, m, m]
@@ -170,31 +175,44 @@ class Candidate:
         excess = tau if self.has("b_with_tau") else tau - 0.5
         return epsilon * excess / ((1 - epsilon) + excess)
 
-    def share(self, epsilon, tau):
+    def graded_weight(self, epsilon, tau):
+        if self.has("graded_drag_of_noble_torczynski"):
+            return self.weight(epsilon, tau)
+        excess = tau if self.has("graded_drag_with_tau") else tau - self.real(0.5)
+        k = excess**2 / (4 * excess + self.real(0.4))
+        return k * epsilon / ((1 - epsilon) + k * epsilon)
+
+    def share(self, epsilon, tau, weight=None):
         """Weights of the solids (first axis) of each cell, and that of the cell."""
+        weight = weight or self.weight
         if self.has("weights_not_shared"):
-            weights = self.weight(epsilon, tau)
+            weights = weight(epsilon, tau)
             return weights, np.minimum(weights.sum(axis=0), 1)
         total = epsilon.sum(axis=0)
-        whole = self.weight(np.minimum(total, 1), tau)
+        whole = weight(np.minimum(total, 1), tau)
         return whole * (epsilon / np.where(total > 0, total, 1)), whole
 
     def omega(self, f, rho, u, rules):
         if rules["s_hat"] is None:
-            printed = self.has("eq2_without_tau") or (self.has("eq4_without_tau") and rules["solid"])
+            paper = rules["solid"] and rules["operator"] != "graded_viscosity"
+            printed = self.has("eq2_without_tau") or (self.has("eq4_without_tau") and paper)
             rate = 1 if printed else 1 / rules["tau"][..., None]
             return -rate * (f - self.equilibrium(rho, u))
         change = rules["s_hat"] * (f @ self.m.T - self.equilibrium_moments(rho, u))
         return -(change @ self.m_inverse.T)
 
-    def source(self, u, g, rules):
-        """Guo et al. (2002), scaled by 1 - 1/(2 tau), for MRT by I - S-hat/2 in moment space."""
+    def unscaled_source(self, u, g):
+        """Guo et al. (2002)"""
         cg = g @ self.c.T
         if self.has("naive_force"):
             return self.w * 3 * cg
         ug = (u * g).sum(axis=-1, keepdims=True)
-        source = self.w * (3 * (cg - ug) + 9 * (u @ self.c.T) * cg)
-        if self.has("source_without_half_rate"):
+        return self.w * (3 * (cg - ug) + 9 * (u @ self.c.T) * cg)
+
+    def source(self, u, g, rules):
+        """That, scaled by 1 - 1/(2 tau), for MRT by I - S-hat/2 in moment space."""
+        source = self.unscaled_source(u, g)
+        if self.has("naive_force", "source_without_half_rate"):
             return source
         if rules["s_hat"] is None:
             rate = 1 if self.has("eq2_without_tau") else 1 / rules["tau"][..., None]
@@ -234,6 +252,10 @@ class Candidate:
         source = 0 * f if g is None else self.source(u, g, rules)
         if epsilon is None:
             return f + omega + source, None
+        if rules["operator"] == "graded_viscosity":
+            covered = epsilon.sum(axis=0) > 0
+            post, forces = self.graded(f, rho, j, rules, epsilon, u_p)
+            return np.where(covered[:, None], post, f + omega + source), forces
         weights, total = self.share(epsilon, rules["tau"])
         fluid = 1 - total[..., None]
         if self.has("fluid_part_not_weighted"):
@@ -248,6 +270,40 @@ class Candidate:
             sign = 1 if self.has("force_sign") else -1
             forces.append(sign * weight[..., None] * (lambda_ @ self.c))
         return post, np.array(forces)
+
+    def graded(self, f, rho, j, rules, epsilon, u_p):
+        """Cells with solid in them as fluid of graded viscosity, pulled along by the solids."""
+        tau, one = rules["tau"], self.real(1)
+        weights, total = self.share(epsilon, tau, self.graded_weight)
+        g = rules["body_force"] if rules["body_force"] is not None else 0 * j
+        force = g if self.has("body_force_not_weighted") else (1 - total[:, None]) * g
+        forces = []
+        for fraction, weight, velocity in zip(epsilon, weights, u_p):
+            pull = (1 if self.has("graded_drag_without_two") else 2) * (rho[:, None] * velocity - j)
+            force = force + weight[:, None] * pull
+            if self.has("force_without_weight"):
+                weight = (fraction > 0).astype(self.real)
+            forces.append((1 if self.has("force_sign") else -1) * weight[:, None] * pull)
+        filled = np.minimum(epsilon.sum(axis=0), 1)
+        excess, free = tau - self.real(0.5), one - filled
+        even = free / (free / 2 + excess)  # 1/s - 1/2 = (tau - 1/2)/(1 - epsilon)
+        if self.has("graded_viscosity_of_fluid"):
+            even = 1 / tau
+        left = one if self.has("graded_odd_rate_without_open") else free
+        q = m = 1 / (self.real(0.5) + self.real(0.002) * left / excess) + 0 * free
+        if self.has("graded_odd_rate_of_fluid"):
+            q, m = (1 / tau, 1 / tau) if rules["rates"] is None else rules["rates"].T[[2, 5]]
+        s = self.diagonal(even, even, q + 0 * even, even, even, m + 0 * even)
+        u = self.velocity(rho, j, force)
+        source = self.unscaled_source(u, force) @ self.m.T
+        if not self.has("naive_force", "source_without_half_rate"):
+            source = (1 - s / 2) * source
+        change = s * (self.equilibrium_moments(rho, u) - f @ self.m.T) + source
+        post, forces = f + change @ self.m_inverse.T, np.array(forces)
+        if self.has("graded_full_cell_kept"):
+            full = (filled == 1)[:, None]
+            post, forces = np.where(full, f, post), np.where(full, 0, forces)
+        return post, forces
 
     # --- boxes ----------------------------------------------------------------------------------
 
@@ -358,6 +414,7 @@ class Candidate:
         rules = {
             "tau": np.full(len(f), tau, dtype=self.real),
             "s_hat": None if rates is None else self.s_hat(rates),
+            "rates": None if rates is None else np.tile(self.numbers(rates), (len(f), 1)),
             "body_force": None if g is None else self.numbers(g),
             "operator": parameters.get("operator"),
             "solid": bool(solids),
@@ -421,6 +478,7 @@ class Candidate:
         solid = "epsilon" in given
         rules = {"tau": given["tau"], "body_force": given.get("body_force"), "solid": solid,
                  "s_hat": self.s_hat(given["rates"]) if "rates" in given else None,
+                 "rates": given.get("rates"),
                  "operator": parameters.get("operator")}
         f = self.stored(given["f"])
         if not solid:

@@ -8,7 +8,7 @@ use crate::directions::Q;
 use crate::forcing::forced_velocity;
 use crate::graded_viscosity;
 use crate::lattice::{Populations, Vec3, density, momentum};
-use crate::partial_saturation::{CellState, force, share_weight};
+use crate::partial_saturation::{BeforeCollision, force, share_weight};
 use crate::setup::{Setup, SolidPhase};
 
 /// Momentum that one cell gives to one solid in one step.
@@ -80,7 +80,7 @@ impl<'a> CellCollision<'a> {
         impulses: &mut Vec<Impulse>,
     ) -> Populations {
         let (rho, j) = (density(f), momentum(f));
-        let cell = CellState { f, rho, u: j / rho };
+        let cell = BeforeCollision { f, rho, u: j / rho };
         let Some(solid) = phase.operator.prepare(&cell, self.operator) else {
             return self.graded(f, (rho, j), phase, shares, impulses);
         };

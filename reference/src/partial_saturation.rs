@@ -83,7 +83,7 @@ pub enum SolidOperator {
 }
 
 /// The state of a cell that the solid operators need.
-pub struct CellState<'a> {
+pub struct BeforeCollision<'a> {
     /// Populations before the collision.
     pub f: &'a Populations,
     /// Density.
@@ -108,7 +108,11 @@ impl SolidOperator {
     /// The change `Lambda` of the populations in a cell full of solid that moves with `u_p`, as a
     /// function of `u_p`: what does not depend on the solid is worked out once for all solids in
     /// the cell. `None` for an operator that is no sum of a fluid and a solid part.
-    pub fn prepare(self, cell: &CellState<'_>, fluid: &CollisionOperator) -> Option<PreparedSolid> {
+    pub fn prepare(
+        self,
+        cell: &BeforeCollision<'_>,
+        fluid: &CollisionOperator,
+    ) -> Option<PreparedSolid> {
         let fixed = match self {
             SolidOperator::NonEquilibriumBounceBack => bounce_back(cell),
             SolidOperator::Superposition => superposition(cell, fluid),
@@ -144,7 +148,7 @@ impl PreparedSolid {
 }
 
 /// Eq. 5 of the paper (sign corrected) less its term `f_a^eq(rho, u_p)`.
-fn bounce_back(cell: &CellState<'_>) -> Populations {
+fn bounce_back(cell: &BeforeCollision<'_>) -> Populations {
     let f = cell.f;
     let f_eq = equilibrium(cell.rho, &cell.u);
     let mut fixed = [0.0; Q];
@@ -159,7 +163,7 @@ fn bounce_back(cell: &CellState<'_>) -> Populations {
 ///
 /// Source: Holdych (2003); as SC3 in waLBerla and lbmpy: `f_-a - f_-a^eq(ρ, u_p) + f_a^eq(ρ, u_p) - f_a`. Of the solid's
 /// equilibrium only the part that is odd in `c_a` is left, and of the populations too.
-fn reflection(cell: &CellState<'_>) -> Populations {
+fn reflection(cell: &BeforeCollision<'_>) -> Populations {
     let f = cell.f;
     let mut fixed = [0.0; Q];
     for a in 0..Q {
@@ -175,7 +179,7 @@ fn reflection(cell: &CellState<'_>) -> Populations {
 /// 55, 103 (2007), who write `f_eq(rho, u_p) - f + (1 - 1/tau)(f - f_eq(rho, u))`. The last term is
 /// the non-equilibrium part that the fluid's own collision leaves: under MRT it is
 /// `(I - M⁻¹ S-hat M)(f - f_eq) = f - f_eq + Omega`, each moment with its own rate.
-fn superposition(cell: &CellState<'_>, fluid: &CollisionOperator) -> Populations {
+fn superposition(cell: &BeforeCollision<'_>, fluid: &CollisionOperator) -> Populations {
     let f_eq = equilibrium(cell.rho, &cell.u);
     let omega = fluid.relaxation(cell.f, cell.rho, &cell.u);
     let mut fixed = [0.0; Q];

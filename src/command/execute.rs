@@ -9,7 +9,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 use psmrt_report::Figure;
 use serde_json::{Value, json};
 
-use super::progress::Progress as ProgressBar;
+use super::progress::ProgressLine;
 use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, summary, write};
 use crate::advice::estimate::{Warning, disk, warnings};
@@ -43,7 +43,7 @@ pub(super) fn execute(
         write_facts(scene, engine, folder, (first_step, start), (state, end))
     };
     facts(engine, "running", None)?;
-    let mut progress = ProgressBar::new(scene, json, interruption());
+    let mut progress = ProgressLine::new(scene, json, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
     drop(progress);
     let end = match end {

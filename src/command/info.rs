@@ -57,8 +57,10 @@ pub fn info(json: bool) {
     say(&format!("processor  {}", text(&machine["processor"])));
     say(&format!("threads    {}", text(&machine["threads"])));
     say(&format!("memory     {}", machine::memory_words()));
-    say("engines    reference (the oracle: double precision, CPU)");
-    say("           wgpu (the kernel: single precision, any adapter below)");
+    for (number, engine) in EngineName::ALL.into_iter().enumerate() {
+        let title = if number == 0 { "engines" } else { "" };
+        say(&format!("{title:<11}{} ({})", engine.word(), engine.about()));
+    }
     if adapters.is_empty() {
         say("adapters   none: a Vulkan, Metal or DX12 driver is needed, or Mesa's software Vulkan");
     }

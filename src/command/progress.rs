@@ -15,7 +15,7 @@ use crate::scene::Scene;
 const LINE_EVERY: Duration = Duration::from_secs(10);
 
 /// Shows how far a run is.
-pub struct Progress {
+pub struct ProgressLine {
     bar: Option<ProgressBar>,
     quiet: bool,
     cells: u64,
@@ -26,7 +26,7 @@ pub struct Progress {
     interrupted: Arc<AtomicBool>,
 }
 
-impl Progress {
+impl ProgressLine {
     /// For a run of `scene`, saying nothing if `quiet`; `interrupted` becomes true when the user wants to stop it.
     pub fn new(scene: &Scene, quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
         let limit = scene.stop.steps;
@@ -39,7 +39,7 @@ impl Progress {
                 .with_style(style)
         });
         let (start, cells) = (Instant::now(), scene.setup.domain.cell_count() as u64);
-        Progress {
+        ProgressLine {
             bar,
             quiet,
             cells,
@@ -53,7 +53,7 @@ impl Progress {
 }
 
 /// Takes the bar away.
-impl Drop for Progress {
+impl Drop for ProgressLine {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
@@ -61,7 +61,7 @@ impl Drop for Progress {
     }
 }
 
-impl Watcher for Progress {
+impl Watcher for ProgressLine {
     fn watch(&mut self, steps: u64, left: Option<f64>) -> bool {
         let start_steps = *self.start_steps.get_or_insert(steps);
         let seconds = self.start.elapsed().as_secs_f64().max(1e-3);

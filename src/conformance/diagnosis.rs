@@ -12,7 +12,7 @@ use super::mistakes::{CATALOGUE, Entry, Mistake};
 use super::model::{GaugedAnswers, Model};
 use super::order::DirectionOrder;
 use super::problem::Problem;
-use super::residual::{Place, locate};
+use super::residual::{ErrorPlace, locate};
 use super::task::Task;
 
 /// A mistake that reproduces wrong answers.
@@ -33,7 +33,7 @@ pub struct Diagnosis {
     /// these by themselves.
     pub by_problem: Vec<(&'static str, Vec<Mistake>)>,
     /// Where the errors sit, for problems that nothing explains.
-    pub places: Vec<Place>,
+    pub places: Vec<ErrorPlace>,
 }
 
 impl Diagnosis {

@@ -75,8 +75,10 @@ pub fn write(kit: &Kit, submission: &Submission, folder: &Path) -> Result<(), Fi
 }
 
 fn manifest(path: &Path) -> Result<CandidateManifest, FilesError> {
-    let remedy = "write e.g. {\"name\": \"my code\", \"precision\": \"f32\", \"kit_version\": 1}: see \
-                  candidate.schema.json in the kit";
+    let remedy = &format!(
+        "write e.g. {{\"name\": \"my code\", \"precision\": \"f32\", \"kit_version\": {KIT_VERSION}}}: see \
+         candidate.schema.json in the kit"
+    );
     let bytes = input::read(path, files::LARGEST_MANIFEST)
         .map_err(|error| FilesError::bad(path, &error, remedy))?;
     let manifest: CandidateManifest =

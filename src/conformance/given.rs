@@ -12,7 +12,7 @@ use super::task::{CollidingCell, Constants, Scene, Task, TouchingPair, kit_direc
 
 /// An array that a problem gives.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Input {
+pub struct GivenArray {
     /// Its name, and that of its file.
     pub name: &'static str,
     /// Names of its axes.
@@ -23,12 +23,17 @@ pub struct Input {
     pub array: Array,
 }
 
-fn input(name: &'static str, what: &'static str, axes: &[&'static str], array: Array) -> Input {
-    Input { name, axes: axes.to_vec(), what, array }
+fn input(
+    name: &'static str,
+    what: &'static str,
+    axes: &[&'static str],
+    array: Array,
+) -> GivenArray {
+    GivenArray { name, axes: axes.to_vec(), what, array }
 }
 
 /// The arrays that `task` gives.
-pub fn inputs(task: &Task) -> Vec<Input> {
+pub fn inputs(task: &Task) -> Vec<GivenArray> {
     let vector = "component";
     match task {
         Task::Constants(Constants { viscosities, .. }) => vec![
@@ -86,11 +91,16 @@ pub fn inputs(task: &Task) -> Vec<Input> {
     }
 }
 
-fn box_input(name: &'static str, what: &'static str, domain: &Domain, f: &[Populations]) -> Input {
+fn box_input(
+    name: &'static str,
+    what: &'static str,
+    domain: &Domain,
+    f: &[Populations],
+) -> GivenArray {
     input(name, what, &["z", "y", "x", DIRECTION], Array::populations(domain.cells(), f))
 }
 
-fn collision_inputs(cells: &[CollidingCell]) -> Vec<Input> {
+fn collision_inputs(cells: &[CollidingCell]) -> Vec<GivenArray> {
     let f: Vec<Populations> = cells.iter().map(|cell| cell.f).collect();
     let tau = cells.iter().map(|cell| cell.collision.tau()).collect();
     let mut inputs = vec![
@@ -126,7 +136,7 @@ fn mrt_rates(collision: &Collision) -> Option<[f64; 6]> {
     }
 }
 
-fn scene_inputs(scene: &Scene) -> Vec<Input> {
+fn scene_inputs(scene: &Scene) -> Vec<GivenArray> {
     let domain = &scene.setup.domain;
     let what = "populations at the start, before the first collision";
     let mut inputs = vec![box_input("populations", what, domain, &scene.populations)];
@@ -152,76 +162,42 @@ fn scene_inputs(scene: &Scene) -> Vec<Input> {
     inputs
 }
 
-fn contact_inputs(pairs: &[TouchingPair]) -> Vec<Input> {
-    let vectors =
-        |of: fn(&TouchingPair) -> Vec3| Array::vectors(&pairs.iter().map(of).collect::<Vec<_>>());
-    let list = |of: fn(&TouchingPair) -> f64| Array::list(pairs.iter().map(of).collect());
-    let (pair, vector) = ("pair", ["pair", "component"]);
-    let radii = pairs.iter().flat_map(|pair| pair.radii).collect();
+fn contact_inputs(pairs: &[TouchingPair]) -> Vec<GivenArray> {
+    let vectors = |name, what, of: fn(&TouchingPair) -> Vec3| {
+        let array = Array::vectors(&pairs.iter().map(of).collect::<Vec<_>>());
+        input(name, what, &["pair", "component"], array)
+    };
+    let numbers = |name, what, of: fn(&TouchingPair) -> f64| {
+        input(name, what, &["pair"], Array::list(pairs.iter().map(of).collect()))
+    };
+    let offset = "from the first centre to the second, or to the nearest point of the plane";
+    let radii = Array::new([pairs.len(), 2], pairs.iter().flat_map(|pair| pair.radii).collect());
     let mut inputs = vec![
-        input(
-            "radii",
-            "radii of both; 0: a plane",
-            &[pair, "body"],
-            Array::new([pairs.len(), 2], radii),
-        ),
-        input(
-            "offset",
-            "from the first centre to the second, or to the nearest point of the plane",
-            &vector,
-            vectors(|p| p.offset),
-        ),
-        input("velocity_first", "of the centre", &vector, vectors(|p| p.motions[0].velocity)),
-        input(
-            "velocity_second",
-            "of the centre, or the plane",
-            &vector,
-            vectors(|p| p.motions[1].velocity),
-        ),
-        input(
-            "spin_first",
-            "angular velocity",
-            &vector,
-            vectors(|p| p.motions[0].angular_velocity),
-        ),
-        input(
-            "spin_second",
-            "angular velocity",
-            &vector,
-            vectors(|p| p.motions[1].angular_velocity),
-        ),
-        input("stiffness", "k, force/length", &[pair], list(|p| p.law.stiffness)),
-        input("damping", "gamma, force time/length", &[pair], list(|p| p.law.damping)),
+        input("radii", "radii of both; 0: a plane", &["pair", "body"], radii),
+        vectors("offset", offset, |p| p.offset),
+        vectors("velocity_first", "of the centre", |p| p.motions[0].velocity),
+        vectors("velocity_second", "of the centre, or the plane", |p| p.motions[1].velocity),
+        vectors("spin_first", "angular velocity", |p| p.motions[0].angular_velocity),
+        vectors("spin_second", "angular velocity", |p| p.motions[1].angular_velocity),
+        numbers("stiffness", "k, force/length", |p| p.law.stiffness),
+        numbers("damping", "gamma, force time/length", |p| p.law.damping),
     ];
     if pairs.iter().any(|pair| pair.law.friction.is_some()) {
-        let mut friction = |name, what, of: fn(&TouchingPair) -> f64| {
-            inputs.push(input(name, what, &[pair], list(of)));
-        };
-        friction("friction", "mu", |p| p.law.friction.map_or(0.0, |f| f.coefficient));
-        friction("tangential_stiffness", "k_t", |p| p.law.friction.map_or(0.0, |f| f.stiffness));
-        friction("tangential_damping", "gamma_t", |p| p.law.friction.map_or(0.0, |f| f.damping));
-        inputs.push(input(
-            "spring",
-            "tangential spring xi",
-            &vector,
-            vectors(|p| p.springs.spring),
-        ));
+        inputs.extend([
+            numbers("friction", "mu", |p| p.law.friction.map_or(0.0, |f| f.coefficient)),
+            numbers("tangential_stiffness", "k_t", |p| p.law.friction.map_or(0.0, |f| f.stiffness)),
+            numbers("tangential_damping", "gamma_t", |p| p.law.friction.map_or(0.0, |f| f.damping)),
+            vectors("spring", "tangential spring xi", |p| p.springs.spring),
+        ]);
     }
     if pairs.iter().any(|pair| pair.law.rolling.is_some()) {
-        let mut rolling = |name, what, of: fn(&TouchingPair) -> f64| {
-            inputs.push(input(name, what, &[pair], list(of)));
-        };
-        rolling("rolling_friction", "mu_r", |p| p.law.rolling.map_or(0.0, |r| r.coefficient));
-        rolling("rolling_stiffness", "k_r, force/length", |p| {
-            p.law.rolling.map_or(0.0, |r| r.stiffness)
-        });
-        rolling("rolling_damping", "gamma_r", |p| p.law.rolling.map_or(0.0, |r| r.damping));
-        inputs.push(input(
-            "rolling_spring",
-            "theta, radians",
-            &vector,
-            vectors(|p| p.springs.rolling),
-        ));
+        let stiffness = "k_r, force/length";
+        inputs.extend([
+            numbers("rolling_friction", "mu_r", |p| p.law.rolling.map_or(0.0, |r| r.coefficient)),
+            numbers("rolling_stiffness", stiffness, |p| p.law.rolling.map_or(0.0, |r| r.stiffness)),
+            numbers("rolling_damping", "gamma_r", |p| p.law.rolling.map_or(0.0, |r| r.damping)),
+            vectors("rolling_spring", "theta, radians", |p| p.springs.rolling),
+        ]);
     }
     inputs
 }

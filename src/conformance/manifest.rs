@@ -112,7 +112,7 @@ pub struct CandidateManifest {
 }
 
 /// What the flags of problems mean.
-const FLAGS: [(&str, &str); 25] = [
+const FLAGS: [(&str, &str); 26] = [
     ("body_force", "a body force acts on the fluid"),
     ("corners", "faces of different kinds meet in edges and corners"),
     ("exact_coverage", "needs exact solid fractions of your own; leave it out if you sample"),
@@ -123,6 +123,10 @@ const FLAGS: [(&str, &str); 25] = [
     ("formulas", "no code of a solver is needed"),
     ("free_slip", "a free-slip face"),
     ("friction", "contacts with friction"),
+    (
+        "graded_viscosity",
+        "cut cells as fluid of graded viscosity, full cells bounced back, instead of the paper's Eq. 5",
+    ),
     ("inlet", "a velocity inlet"),
     ("moving_solid", "a solid that changes cells"),
     ("moving_wall", "a wall that moves in its plane"),

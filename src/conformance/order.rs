@@ -70,28 +70,8 @@ impl DirectionOrder {
         self.kit_number[own]
     }
 
-    /// The candidate's number of the kit's number `a`.
-    pub fn own(&self, a: usize) -> usize {
-        // Every number is in the list.
-        self.kit_number.iter().position(|&known| known == a).unwrap_or(a)
-    }
-
     /// The directions in this order.
     pub fn directions(&self) -> [[i32; 3]; Q] {
         self.kit_number.map(|a| C[a])
-    }
-
-    /// Values along an axis of directions in the kit's order, put into this order.
-    pub fn from_kit(&self, values: &[f64; Q]) -> [f64; Q] {
-        self.kit_number.map(|a| values[a])
-    }
-
-    /// Values along an axis of directions in this order, put into the kit's.
-    pub fn to_kit(&self, values: &[f64; Q]) -> [f64; Q] {
-        let mut sorted = [0.0; Q];
-        for (&a, &value) in self.kit_number.iter().zip(values) {
-            sorted[a] = value;
-        }
-        sorted
     }
 }

@@ -12,7 +12,7 @@ use super::task::Task;
 
 /// Where the error of an answer sits.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct ErrorPlace {
     /// The problem.
     pub problem: &'static str,
     /// The answer.
@@ -25,7 +25,12 @@ pub struct Place {
 const LISTED: usize = 8;
 
 /// Looks where `found` differs from what is expected.
-pub(super) fn locate(problem: &Problem, expected: &Expected, found: &Array, epsilon: f64) -> Place {
+pub(super) fn locate(
+    problem: &Problem,
+    expected: &Expected,
+    found: &Array,
+    epsilon: f64,
+) -> ErrorPlace {
     let spec = &expected.spec;
     let (right, gauges) = (&expected.values.values, &expected.gauges.values);
     let bad: Vec<usize> = (0..right.len())
@@ -53,7 +58,7 @@ pub(super) fn locate(problem: &Problem, expected: &Expected, found: &Array, epsi
     if let Some(finding) = factor(&found.values, right, gauges, epsilon) {
         findings.push(finding);
     }
-    Place { problem: problem.id, answer: spec.name, findings }
+    ErrorPlace { problem: problem.id, answer: spec.name, findings }
 }
 
 /// What position `i` along an axis is called.

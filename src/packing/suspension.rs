@@ -39,7 +39,7 @@ impl RandomSuspension {
         let mut random = SplitMix64::new(self.seed);
         let mut order: Vec<usize> = (0..self.radii.len()).collect();
         order.sort_by(|&a, &b| self.radii[b].total_cmp(&self.radii[a]).then(a.cmp(&b)));
-        let mut known = Known::new(self);
+        let mut known = PutDown::new(self);
         let mut grains = vec![None; self.radii.len()];
         for (placed, &number) in order.iter().enumerate() {
             let radius = self.radii[number];
@@ -82,19 +82,19 @@ impl RandomSuspension {
 }
 
 /// The grains put down so far, by cells as wide as two of them can be apart and still be too close.
-struct Known {
+struct PutDown {
     counts: [i64; 3],
     edges: [f64; 3],
     cells: HashMap<[i64; 3], Vec<(Vec3, f64)>>,
 }
 
-impl Known {
+impl PutDown {
     fn new(wanted: &RandomSuspension) -> Self {
         let reach = 2.0 * wanted.radii.iter().copied().fold(0.0, f64::max) + wanted.gap;
         #[expect(clippy::cast_possible_truncation, reason = "a box of more cells has no memory")]
         let counts = wanted.lengths.map(|length| ((length / reach).floor() as i64).max(1));
         let edges = std::array::from_fn(|axis| wanted.lengths[axis] / counts[axis] as f64);
-        Known { counts, edges, cells: HashMap::new() }
+        PutDown { counts, edges, cells: HashMap::new() }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "inside the box")]

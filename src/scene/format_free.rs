@@ -89,7 +89,7 @@ pub enum GravityForm {
 /// 0.51, 0.6 at 0.55, 0.7 at 0.6 and 0.8, 0.8 at 1 (golden/stability/movers.csv); below that, their velocity
 /// oscillates with growing amplitude until the run stops. `lagged` is the default because a released sphere then
 /// accelerates as the exact solution does, within 2.5 % of its terminal velocity; with `kept` it is too slow by more
-/// than 1.5 times that (tests/oracle/coupling.rs). With `lagged` and averaged forces the angular velocity of a neutrally
+/// than 1.5 times that (tests/oracle/released_sphere.rs). With `lagged` and averaged forces the angular velocity of a neutrally
 /// buoyant grain oscillates. All of this is for `solid.operator` `bounce_back` and `superposition`, under which grains collide
 /// with the velocity that they have come with. With `full_bounce_back` it is solved for before the collision, which is
 /// stable for lighter grains too, down to a tenth of the fluid's density (tests/oracle/implicit_coupling.rs).

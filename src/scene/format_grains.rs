@@ -46,7 +46,7 @@ pub struct GrainsSection {
     /// leave through `pressure` and `free_outflow` faces; if it overlaps any other face, or a sphere that is not free,
     /// by more than 1 % of its diameter, the run stops.
     #[serde(default)]
-    pub motion: Motion,
+    pub motion: MotionKind,
     /// With `free`: density of the grains, kg/m3; not together with a `csv` file that has a column for it.
     pub density: Option<f64>,
     /// With `prescribed`: velocity, m/s; with `free`: velocity at the start. The fluid inside a grain starts with the
@@ -89,7 +89,7 @@ pub enum LatticeName {
 /// How a grain moves.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]
-pub enum Motion {
+pub enum MotionKind {
     /// It does not move.
     #[default]
     Fixed,

@@ -22,7 +22,7 @@ pub const COMPARISON: [&str; 2] = ["comparison.csv", "comparison.svg"];
 
 /// What makes a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Maker {
+pub enum MadeBy {
     /// Every run.
     Run,
     /// The `[[grains]]` section of this number: the copy of its list.
@@ -41,23 +41,23 @@ pub struct Made {
     /// Whether it is a folder.
     pub is_folder: bool,
     /// What makes it.
-    pub by: Maker,
+    pub by: MadeBy,
 }
 
 /// All files and folders that a run makes in its folder. What lies in the folder of a record is called after
 /// the step and cannot meet anything else; half-written files have names of their own.
 pub fn all(records: &[Record], lists: &[Attachment], compares: bool) -> Vec<Made> {
-    let file = |by: Maker, name: String| Made { name, is_folder: false, by };
-    let folder = |by: Maker, name: &str| Made { name: name.to_owned(), is_folder: true, by };
+    let file = |by: MadeBy, name: String| Made { name, is_folder: false, by };
+    let folder = |by: MadeBy, name: &str| Made { name: name.to_owned(), is_folder: true, by };
     let run = [LOCK, ID, SCENE, FACTS];
-    let mut made: Vec<Made> = run.map(|name| file(Maker::Run, name.to_owned())).into();
-    made.push(folder(Maker::Run, CHECKPOINTS));
-    made.extend(lists.iter().map(|list| file(Maker::List(list.section), list.file_name())));
+    let mut made: Vec<Made> = run.map(|name| file(MadeBy::Run, name.to_owned())).into();
+    made.push(folder(MadeBy::Run, CHECKPOINTS));
+    made.extend(lists.iter().map(|list| file(MadeBy::List(list.section), list.file_name())));
     if compares {
-        made.extend(COMPARISON.map(|name| file(Maker::Comparison, name.to_owned())));
+        made.extend(COMPARISON.map(|name| file(MadeBy::Comparison, name.to_owned())));
     }
     for (number, record) in records.iter().enumerate() {
-        let (by, name) = (Maker::Record(number), &record.name);
+        let (by, name) = (MadeBy::Record(number), &record.name);
         match record.what {
             What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => {
                 made.push(file(by, table(name)));

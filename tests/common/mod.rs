@@ -4,6 +4,7 @@
 #![allow(dead_code, reason = "each test binary is a crate of its own and uses a part of this")]
 
 pub mod arrays;
+pub mod broken;
 pub mod collisions;
 pub mod cuts;
 pub mod random;

@@ -113,6 +113,6 @@ fn c_candidate() {
     run(Command::new(&program).arg(folder.join("kit")).arg(folder.join("candidate")));
     let verdict = verdict(&folder.join("candidate"));
     assert!(verdict.passed() && verdict.unasked.is_empty(), "{verdict}");
-    assert_eq!(verdict.attempted(), 6 + 5 + 20);
+    assert_eq!(verdict.attempted(), 6 + 5 + 24);
     fs::remove_dir_all(folder).unwrap();
 }

@@ -11,7 +11,7 @@ use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::equilibrium::equilibrium;
 use psmrt_reference::lattice::{Populations, Vec3, density, momentum, viscosity};
 use psmrt_reference::moments::Moments;
-use psmrt_reference::partial_saturation::{CellState, SolidOperator};
+use psmrt_reference::partial_saturation::{BeforeCollision, SolidOperator};
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solver::Solver;
@@ -73,7 +73,7 @@ fn eq5(f: &Populations, u_p: &Vec3, sign: f64) -> Populations {
 /// The solid operator as the oracle has it.
 fn lambda(f: &Populations, u_p: &Vec3) -> Populations {
     let rho = density(f);
-    let cell = CellState { f, rho, u: momentum(f) / rho };
+    let cell = BeforeCollision { f, rho, u: momentum(f) / rho };
     let fluid = CollisionOperator::Srt { tau: TAU };
     SolidOperator::NonEquilibriumBounceBack.prepare(&cell, &fluid).unwrap().lambda(u_p)
 }

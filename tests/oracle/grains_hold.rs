@@ -1,7 +1,7 @@
 //! Whether contacts hold: which grain is said to lie too deep in what, by geometry alone.
 
 use psmrt_reference::grains::grain::Grain;
-use psmrt_reference::grains::hold::{Obstacle, Sunk, deepest, deepest_of};
+use psmrt_reference::grains::hold::{Sunk, SunkInto, deepest, deepest_of};
 use psmrt_reference::grains::law::ContactLaw;
 use psmrt_reference::grains::plane::Plane;
 use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
@@ -46,7 +46,7 @@ fn a_grain_that_lies_more_than_half_its_radius_in_another_is_named_with_depth_an
     ];
     let sunk = deepest(&system(grains, Vec::new())).expect("6 - 4 = 2 of radius 2 is too deep");
     let expected =
-        Sunk { grain: 1, obstacle: Obstacle::Grain(0), overlap: 2.0, radius: 2.0, approach: 0.75 };
+        Sunk { grain: 1, obstacle: SunkInto::Grain(0), overlap: 2.0, radius: 2.0, approach: 0.75 };
     assert_eq!(sunk, expected, "of two free grains the smaller is named");
     assert_eq!(sunk.depth(), 1.0, "2 deep at radius 2 is one radius");
     let deeper = Sunk { overlap: 3.0, ..sunk };
@@ -60,13 +60,13 @@ fn of_two_equal_free_grains_the_first_is_named_and_of_a_free_and_a_fixed_one_the
         (sunk.grain, sunk.obstacle)
     };
     let (one, two) = (sphere(1.0, 2.0), sphere(3.0, 2.0));
-    assert_eq!(named(one, two), (0, Obstacle::Grain(1)), "equal free grains");
-    assert_eq!(named(fixed(one), two), (1, Obstacle::Grain(0)), "the first is fixed");
-    assert_eq!(named(one, fixed(two)), (0, Obstacle::Grain(1)), "the second is fixed");
+    assert_eq!(named(one, two), (0, SunkInto::Grain(1)), "equal free grains");
+    assert_eq!(named(fixed(one), two), (1, SunkInto::Grain(0)), "the first is fixed");
+    assert_eq!(named(one, fixed(two)), (0, SunkInto::Grain(1)), "the second is fixed");
     let small = sphere(3.0, 1.5);
-    assert_eq!(named(one, small), (1, Obstacle::Grain(0)), "the second is smaller");
-    assert_eq!(named(small, one), (0, Obstacle::Grain(1)), "the first is smaller");
-    assert_eq!(named(one, fixed(small)), (0, Obstacle::Grain(1)), "the smaller is fixed");
+    assert_eq!(named(one, small), (1, SunkInto::Grain(0)), "the second is smaller");
+    assert_eq!(named(small, one), (0, SunkInto::Grain(1)), "the first is smaller");
+    assert_eq!(named(one, fixed(small)), (0, SunkInto::Grain(1)), "the smaller is fixed");
 }
 
 #[test]
@@ -95,10 +95,10 @@ fn the_deepest_is_found_among_planes_and_grains() {
     ];
     let system_of_three = system(grains.clone(), vec![floor()]);
     let sunk = deepest(&system_of_three).expect("two are too deep");
-    assert_eq!(sunk.obstacle, Obstacle::Grain(2), "2.5 in a grain is deeper than 1.5 in the floor");
+    assert_eq!(sunk.obstacle, SunkInto::Grain(2), "2.5 in a grain is deeper than 1.5 in the floor");
     let in_floor = deepest_of(&system_of_three, 0).expect("it is at the floor");
     let expected =
-        Sunk { grain: 0, obstacle: Obstacle::Plane(0), overlap: 1.5, radius: 2.0, approach: 0.25 };
+        Sunk { grain: 0, obstacle: SunkInto::Plane(0), overlap: 1.5, radius: 2.0, approach: 0.25 };
     assert_eq!(in_floor, expected, "what the first grain lies deepest in");
     let other = deepest_of(&system_of_three, 2).expect("it lies in grain 1");
     assert_eq!((other.grain, other.overlap), (1, 2.5), "named from either side of a pair");
@@ -132,5 +132,5 @@ fn what_a_grain_lies_deepest_in_does_not_tell_of_other_grains() {
     ];
     let sunk =
         deepest_of(&system(grains, vec![floor()]), 2).expect("the floor is listed however far");
-    assert_eq!((sunk.grain, sunk.obstacle, sunk.overlap), (2, Obstacle::Plane(0), -0.25));
+    assert_eq!((sunk.grain, sunk.obstacle, sunk.overlap), (2, SunkInto::Plane(0), -0.25));
 }

@@ -1,5 +1,6 @@
 //! The guard stops a run whose state breaks, at its interval, with the step and the cell; set-ups that cannot be run are refused.
 
+use crate::common::broken;
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, DomainError, Face, Faces};
 use psmrt_reference::guard::{Failure, GuardSettings};
@@ -20,14 +21,9 @@ fn along_x(u: f64) -> Vec3 {
 
 #[test]
 fn a_broken_state_is_found_at_the_next_check_with_its_step_and_cell() {
-    // One cell is broken from the start; the others are sound.
-    for (rho, u) in [(-1.0, 0.0), (0.0, 0.0), (f64::NAN, 0.0), (1.0, f64::INFINITY), (1.0, 0.7)] {
-        let setup = Setup::fluid(box_of([3, 3, 3], Faces::PERIODIC), SRT);
-        let broken = Vec3::new(2.5, 1.5, 0.5);
-        let start = |x| if x == broken { (rho, along_x(u)) } else { (1.0, Vec3::zeros()) };
-        let mut solver = Solver::starting_from(setup, start).unwrap();
+    for ((rho, u), mut solver) in broken::at_the_start() {
         let stopped = solver.run(10).expect_err("a broken cell must not survive");
-        assert_eq!((stopped.step, stopped.cell), (0, [2, 1, 0]), "density {rho}, velocity {u}");
+        assert_eq!((stopped.step, stopped.cell), (0, broken::CELL), "density {rho}, velocity {u}");
         for part in ["before step 0", "cell [2, 1, 0]"] {
             assert!(stopped.to_string().contains(part), "no {part:?} in: {stopped}");
         }

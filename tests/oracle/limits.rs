@@ -12,7 +12,7 @@ use psmrt_reference::directions::{OPPOSITE, Q};
 use psmrt_reference::domain::{Domain, Faces};
 use psmrt_reference::equilibrium::equilibrium;
 use psmrt_reference::lattice::{Populations, Vec3, momentum, relaxation_time, viscosity};
-use psmrt_reference::partial_saturation::{CellState, SolidOperator, Weighting};
+use psmrt_reference::partial_saturation::{BeforeCollision, SolidOperator, Weighting};
 use psmrt_reference::rates::Rates;
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
@@ -203,8 +203,8 @@ fn fluid_that_moves_with_the_solid_feels_nothing() {
         for collision in [Collision::Srt { tau: 0.6 }, mrt(0.6)] {
             let (rho, u) = (random.between(0.9, 1.1), random.vector(0.2));
             let f = equilibrium(rho, &u);
-            let prepared =
-                operator.prepare(&CellState { f: &f, rho, u }, &CollisionOperator::new(&collision));
+            let prepared = operator
+                .prepare(&BeforeCollision { f: &f, rho, u }, &CollisionOperator::new(&collision));
             let lambda = prepared.unwrap().lambda(&u);
             // Each entry is a difference of equal numbers below 0.4; M⁻¹ S (m - m_eq) adds
             // the round-off of two matrix products.

@@ -25,3 +25,16 @@ fn what_else_drivers_print_is_passed_on() {
     assert!(!has_adapters || said.contains("layer"), "{said}");
     assert!(!said.lines().any(|line| line.starts_with("error: XDG_RUNTIME_DIR")), "{said}");
 }
+
+#[test]
+fn every_engine_is_listed() {
+    let output = info("");
+    let said = String::from_utf8_lossy(&output.stdout);
+    for engine in psmrt::engine::EngineName::ALL {
+        assert!(
+            said.contains(&format!("{} (", engine.word())),
+            "{} is missing: {said}",
+            engine.word()
+        );
+    }
+}

@@ -25,7 +25,7 @@ fn candidate(folder: &Folder, kit: &Path) -> PathBuf {
     fs::create_dir_all(out.join("weights")).unwrap();
     fs::write(
         out.join("manifest.json"),
-        r#"{"name": "files", "precision": "f32", "kit_version": 2}"#,
+        r#"{"name": "files", "precision": "f32", "kit_version": 3}"#,
     )
     .unwrap();
     fs::copy(kit.join("problems/weights/expected/weight.npy"), out.join("weights/weight.npy"))
@@ -131,7 +131,7 @@ fn check_exits_with_0_1_or_2_and_prints_one_json_object_on_request() {
     let candidate = candidate(&folder, &kit);
     let (code, text, _) = check(&kit, &candidate);
     assert_eq!(code, Some(0), "{text}");
-    assert!(text.contains("not attempted") && text.contains("passed: 1 of 84 answers"), "{text}");
+    assert!(text.contains("not attempted") && text.contains("passed: 1 of 91 answers"), "{text}");
     // A value that is off by a thousandth.
     let file = candidate.join("weights/weight.npy");
     let mut bytes = fs::read(&file).unwrap();
@@ -194,11 +194,11 @@ fn bad_folders_are_refused_with_file_problem_and_remedy() {
     for (text, problem, remedy) in [
         ("", "EOF", "candidate.schema.json"),
         (r#"{"name": "x"}"#, "missing field `kit_version`", "write e.g."),
-        (r#"{"name": "x", "kit_version": 7}"#, "kit_version = 7, the kit's is 2", "this version"),
-        (r#"{"name": "x", "kit_version": 2, "precision": "f8"}"#, "unknown variant `f8`", "f32"),
-        (r#"{"name": "x", "kit_version": 2, "order": 1}"#, "unknown field `order`", "write e.g."),
+        (r#"{"name": "x", "kit_version": 7}"#, "kit_version = 7, the kit's is 3", "this version"),
+        (r#"{"name": "x", "kit_version": 3, "precision": "f8"}"#, "unknown variant `f8`", "f32"),
+        (r#"{"name": "x", "kit_version": 3, "order": 1}"#, "unknown field `order`", "write e.g."),
         (
-            r#"{"name": "x", "kit_version": 2, "directions": [[0, 0, 0]]}"#,
+            r#"{"name": "x", "kit_version": 3, "directions": [[0, 0, 0]]}"#,
             "directions lists 1 directions",
             "list all nineteen",
         ),
@@ -214,7 +214,7 @@ fn bad_folders_are_refused_with_file_problem_and_remedy() {
     assert!(check(&kit, &candidate).2.contains("manifest.json: it cannot be read"));
     // The two folders the other way round.
     assert!(check(&candidate, &kit).2.contains("manifest.json"));
-    fs::write(&manifest, r#"{"name": "x", "kit_version": 2}"#).unwrap();
+    fs::write(&manifest, r#"{"name": "x", "kit_version": 3}"#).unwrap();
     let (code, _, error) = check(&candidate, &kit);
     assert_eq!(code, Some(2));
     assert!(error.contains("is not the manifest of a kit"), "{error}");

@@ -24,9 +24,9 @@ fn cell_updates(kit: &Kit) -> u64 {
 
 #[test]
 fn oracle_passes_its_own_kit_without_any_error() {
-    // The kit's scenes take 20,700 cell updates: once for all tests, once more and answered here, and each time
+    // The kit's scenes take 21,800 cell updates: once for all tests, once more and answered here, and each time
     // that the tests of its files let psmrt make it.
-    Budget::oracle(630_000).spend(30 * cell_updates(kit()));
+    Budget::oracle(660_000).spend(30 * cell_updates(kit()));
     let verdict = judge(&mut Oracle).unwrap();
     assert!(verdict.passed(), "{verdict}");
     assert_eq!(verdict.attempted(), verdict.judged.len());
@@ -215,7 +215,7 @@ impl Candidate for Backwards {
 fn any_order_of_directions_is_sorted_by_the_judge() {
     let verdict = judged(&mut Backwards);
     assert!(verdict.passed() && verdict.largest_error() == 0.0, "{verdict}");
-    assert_eq!(verdict.attempted(), 6 + 20 + 7);
+    assert_eq!(verdict.attempted(), 6 + 24 + 7);
 }
 
 #[test]
@@ -235,12 +235,11 @@ fn every_mistake_shows_and_is_named_when_the_model_makes_it() {
 }
 
 #[test]
-fn catalogue_is_in_the_order_of_its_names_and_large_enough() {
+fn each_mistake_has_a_name_of_its_own() {
     assert!(CATALOGUE.len() >= 25);
-    for (position, entry) in CATALOGUE.iter().enumerate() {
-        assert_eq!(entry.mistake as usize, position, "{}", entry.name);
-        assert_eq!(entry.mistake.entry(), entry);
-        assert_eq!(CATALOGUE.iter().filter(|other| other.name == entry.name).count(), 1);
+    for entry in &CATALOGUE {
+        let of_that_name = CATALOGUE.iter().filter(|other| other.name == entry.name).count();
+        assert_eq!(of_that_name, 1, "{}", entry.name);
     }
 }
 
@@ -363,5 +362,5 @@ fn model_of_the_diagnosis_shares_no_arithmetic_with_the_reference() {
         }
         files += 1;
     }
-    assert_eq!(files, 6);
+    assert_eq!(files, 7);
 }

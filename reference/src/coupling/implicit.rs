@@ -33,6 +33,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector6};
 
 use crate::domain::Domain;
+use crate::grains::contact::Motion;
 use crate::grains::grain::Grain;
 use crate::lattice::{Vec3, density, momentum};
 use crate::partial_saturation::share_weight;
@@ -43,15 +44,6 @@ use super::free_grains::{FreeGrains, mirrors_through};
 
 /// What full bounce-back takes of the momentum, over `B (j - ρ u_s)`.
 const TAKEN: f64 = 2.0;
-
-/// Velocity and angular velocity of a grain.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
-    /// Velocity of the centre.
-    pub velocity: Vec3,
-    /// Angular velocity in radians per step.
-    pub angular_velocity: Vec3,
-}
 
 /// How each solid of a fluid holds it, under [`crate::partial_saturation::SolidOperator::FullBounceBack`].
 pub fn grips(fluid: &Solver) -> Vec<Grip> {

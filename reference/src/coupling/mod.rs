@@ -51,9 +51,10 @@ use crate::solver::{Memory, Solver};
 use std::borrow::Cow;
 use thiserror::Error;
 
+pub use crate::grains::contact::Motion;
 pub use balance::{balancing_force, with_displaced};
 pub use free_grains::{CouplingSettings, FreeGrains, Gravity, InternalFluid};
-pub use implicit::{Motion, grips, grips_with_displaced, load_by_grip};
+pub use implicit::{grips, grips_with_displaced, load_by_grip};
 pub use last_step::LastStep;
 
 /// A coupled set-up that cannot be run.

@@ -8,7 +8,7 @@
 use crate::grains::grain::Grain;
 use crate::grains::system::GrainSystem;
 
-pub use crate::grains::sunk::{DEEPEST, Obstacle, Sunk};
+pub use crate::grains::sunk::{DEEPEST, Sunk, SunkInto};
 
 /// The free grain that lies deepest in an obstacle, if it is too deep.
 pub fn deepest(system: &GrainSystem) -> Option<Sunk> {
@@ -20,7 +20,7 @@ pub fn deepest(system: &GrainSystem) -> Option<Sunk> {
 /// Where a grain lies deepest, however deep, if anything is near it.
 pub fn deepest_of(system: &GrainSystem, grain: usize) -> Option<Sunk> {
     let found = at_planes(system).chain(among_grains(system));
-    let own = found.filter(|sunk| sunk.grain == grain || sunk.obstacle == Obstacle::Grain(grain));
+    let own = found.filter(|sunk| sunk.grain == grain || sunk.obstacle == SunkInto::Grain(grain));
     own.max_by(|one, two| one.depth().total_cmp(&two.depth()))
 }
 
@@ -30,7 +30,7 @@ fn at_planes(system: &GrainSystem) -> impl Iterator<Item = Sunk> {
     free.flat_map(move |(number, grain)| {
         system.planes().iter().enumerate().map(move |(plane, it)| Sunk {
             grain: number,
-            obstacle: Obstacle::Plane(plane),
+            obstacle: SunkInto::Plane(plane),
             // δ = R - height
             overlap: grain.radius - it.height(&grain.position),
             radius: grain.radius,
@@ -54,7 +54,7 @@ fn among_grains(system: &GrainSystem) -> impl Iterator<Item = Sunk> {
         let (grain, other) = if names_second { (second, first) } else { (first, second) };
         Sunk {
             grain,
-            obstacle: Obstacle::Grain(other),
+            obstacle: SunkInto::Grain(other),
             // δ = R₁ + R₂ - |x₂ - x₁|
             overlap: one.radius + two.radius - distance,
             radius: one.radius.min(two.radius),

@@ -8,7 +8,7 @@ pub const DEEPEST: f64 = 0.5;
 
 /// What a grain should not pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Obstacle {
+pub enum SunkInto {
     /// Another grain, by its number.
     Grain(usize),
     /// A plane, by its number.
@@ -25,7 +25,7 @@ pub struct Sunk {
     /// Number of the grain; of two free grains the smaller.
     pub grain: usize,
     /// Where it lies.
-    pub obstacle: Obstacle,
+    pub obstacle: SunkInto,
     /// Overlap, length; on a plane beyond the radius if the centre is behind it.
     pub overlap: f64,
     /// Radius of the smaller body, length.

@@ -19,6 +19,13 @@ pub(super) struct Rules {
     pub(super) operator: Option<(SolidOperator, Weighting)>,
 }
 
+impl Rules {
+    /// Whether cells with solid in them are fluid of graded viscosity.
+    pub(super) fn is_graded(&self) -> bool {
+        matches!(self.operator, Some((SolidOperator::GradedViscosity, _)))
+    }
+}
+
 /// A solid in a cell: its fraction, and its velocity there.
 pub(super) type SolidHere = (f64, Gauged3);
 
@@ -30,6 +37,9 @@ impl Model {
         rules: &Rules,
         solids: &[SolidHere],
     ) -> (Cell, Vec<Gauged3>) {
+        if !solids.is_empty() && rules.is_graded() {
+            return self.graded(f, rules, solids);
+        }
         let (rho, j) = conserved(f);
         let bare = j.map(|j| j / rho);
         let g = rules.body_force.as_ref().map(vector);
@@ -42,7 +52,7 @@ impl Model {
         };
         let tau = rules.collision.tau();
         let epsilons: Vec<f64> = solids.iter().map(|solid| solid.0).collect();
-        let (weights, total) = self.share(&epsilons, tau);
+        let (weights, total) = self.share(&epsilons, |epsilon| self.weight(epsilon, tau));
         let u_solid = if self.has(Mistake::SolidWithHalfForce) { u } else { bare };
         let fluid = if self.has(Mistake::FluidPartNotWeighted) {
             1.0.into()
@@ -58,12 +68,17 @@ impl Model {
         for ((_, u_p), &weight) in solids.iter().zip(&weights) {
             let lambda = self.lambda(f, (rho, u_solid), *u_p, operator, rules);
             post = plus(post, times(lambda, weight));
-            let weight = if self.has(Mistake::ForceWithoutWeight) { 1.0.into() } else { weight };
-            let sign = if self.has(Mistake::ForceSign) { 1.0 } else { -1.0 };
             let (_, gained) = conserved(&lambda);
-            forces.push(gained.map(|gained| gained * weight * sign));
+            forces.push(self.force(gained, weight));
         }
         (post, forces)
+    }
+
+    /// Force on a solid of the weight `weight` in a cell that would gain the momentum `gained` were it full of it.
+    pub(super) fn force(&self, gained: Gauged3, weight: Gauged) -> Gauged3 {
+        let weight = if self.has(Mistake::ForceWithoutWeight) { 1.0.into() } else { weight };
+        let sign = if self.has(Mistake::ForceSign) { 1.0 } else { -1.0 };
+        gained.map(|gained| gained * weight * sign)
     }
 
     /// Velocity with half the body force.
@@ -79,7 +94,9 @@ impl Model {
         match &rules.collision {
             Collision::Srt { tau } => {
                 let printed = self.has(Mistake::Eq2WithoutTau)
-                    || (self.has(Mistake::Eq4WithoutTau) && rules.operator.is_some());
+                    || (self.has(Mistake::Eq4WithoutTau)
+                        && rules.operator.is_some()
+                        && !rules.is_graded());
                 let rate = if printed { 1.0 } else { 1.0 / tau };
                 let f_eq = self.equilibrium(rho, u);
                 std::array::from_fn(|a| (f_eq[a] - f[a]) * rate)
@@ -93,16 +110,26 @@ impl Model {
         }
     }
 
-    /// Guo's source, scaled to go with the relaxation.
-    fn source(&self, u: Gauged3, g: Gauged3, collision: &Collision) -> Cell {
+    /// Guo's source before it is scaled.
+    pub(super) fn unscaled_source(&self, u: Gauged3, g: Gauged3) -> Cell {
         let naive = self.has(Mistake::NaiveForce);
-        let source: Cell = std::array::from_fn(|a| {
+        std::array::from_fn(|a| {
             let c = direction(a);
             let linear = dot(c, g) * 3.0;
             let rest = dot(c, u) * dot(c, g) * 9.0 - dot(u, g) * 3.0;
             (if naive { linear } else { linear + rest }) * self.weights[a]
-        });
-        if naive || self.has(Mistake::SourceWithoutHalfRate) {
+        })
+    }
+
+    /// Whether the source is scaled to go with the relaxation.
+    pub(super) fn scales_source(&self) -> bool {
+        !self.has(Mistake::NaiveForce) && !self.has(Mistake::SourceWithoutHalfRate)
+    }
+
+    /// Guo's source, scaled to go with the relaxation.
+    fn source(&self, u: Gauged3, g: Gauged3, collision: &Collision) -> Cell {
+        let source = self.unscaled_source(u, g);
+        if !self.scales_source() {
             return source;
         }
         match collision {

@@ -1,5 +1,6 @@
 //! Weights, `M`, `S-hat`, equilibria, weights of solids, formulas.
 
+use nalgebra::SMatrix;
 use psmrt_reference::coverage::exact_fraction;
 use psmrt_reference::directions::{C, Q};
 use psmrt_reference::lattice::Vec3;
@@ -58,35 +59,16 @@ fn monomial(k: usize, [x, y, z]: [f64; 3]) -> Option<f64> {
     }
 }
 
-/// The inverse of a matrix, by Gauss and Jordan with row pivots.
-pub(super) fn inverse(matrix: &[[f64; Q]; Q]) -> [[f64; Q]; Q] {
-    let mut left = *matrix;
-    let mut right: [[f64; Q]; Q] =
-        std::array::from_fn(|i| std::array::from_fn(|k| f64::from(u8::from(i == k))));
-    for column in 0..Q {
-        let size = |row: &usize| left[*row][column].abs();
-        let pivot = (column..Q).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(column);
-        left.swap(column, pivot);
-        right.swap(column, pivot);
-        let divisor = left[column][column];
-        for k in 0..Q {
-            left[column][k] /= divisor;
-            right[column][k] /= divisor;
-        }
-        for row in (0..Q).filter(|&row| row != column) {
-            let factor = left[row][column];
-            for k in 0..Q {
-                left[row][k] -= factor * left[column][k];
-                right[row][k] -= factor * right[column][k];
-            }
-        }
-    }
-    right
-}
-
-/// The transpose of a matrix: its columns.
+/// The columns of a matrix.
 pub(super) fn columns(matrix: &[[f64; Q]; Q]) -> [[f64; Q]; Q] {
     std::array::from_fn(|column| std::array::from_fn(|row| matrix[row][column]))
+}
+
+/// The columns of its inverse.
+pub(super) fn inverse_columns(matrix: &[[f64; Q]; Q]) -> [[f64; Q]; Q] {
+    let matrix = SMatrix::<f64, Q, Q>::from_fn(|row, column| matrix[row][column]);
+    // No mistake makes it singular.
+    matrix.try_inverse().map_or([[f64::NAN; Q]; Q], |inverse| inverse.data.0)
 }
 
 /// A matrix, given by its columns, times the values of a cell. (The entries of the matrix are given
@@ -164,9 +146,14 @@ impl Model {
             Some(Mistake::PiRateIsNu) => pi = nu,
             _ => {}
         }
-        let thirteenth = if self.has(Mistake::SHat13th) { nu } else { pi };
+        self.diagonal([e, eps, q, nu, pi, m])
+    }
+
+    /// The diagonal matrix of the rates `e, eps, q, nu, pi, m`.
+    pub(super) fn diagonal<T: Copy + Default>(&self, [e, eps, q, nu, pi, m]: [T; 6]) -> [T; Q] {
+        let (none, thirteenth) = (T::default(), if self.has(Mistake::SHat13th) { nu } else { pi });
         let mut diagonal =
-            [0.0, e, eps, 0.0, q, 0.0, q, 0.0, q, nu, pi, nu, thirteenth, nu, nu, nu, m, m, m];
+            [none, e, eps, none, q, none, q, none, q, nu, pi, nu, thirteenth, nu, nu, nu, m, m, m];
         if self.has(Mistake::SHatWithoutBlank) {
             diagonal[3..].rotate_left(1);
         }
@@ -193,17 +180,20 @@ impl Model {
         epsilon * beyond / (Gauged::from(1.0) - epsilon + beyond)
     }
 
-    /// The weights of the solids of a cell and their sum, that of the cell.
-    pub(super) fn share(&self, epsilons: &[f64], tau: f64) -> (Vec<Gauged>, Gauged) {
+    /// The weights of the solids of a cell and their sum, that of the cell. `weight`: that of a solid fraction.
+    pub(super) fn share(
+        &self,
+        epsilons: &[f64],
+        weight: impl Fn(Gauged) -> Gauged,
+    ) -> (Vec<Gauged>, Gauged) {
         if self.has(Mistake::WeightsNotShared) {
-            let weights: Vec<Gauged> =
-                epsilons.iter().map(|&e| self.weight(e.into(), tau)).collect();
+            let weights: Vec<Gauged> = epsilons.iter().map(|&e| weight(e.into())).collect();
             let sum: Gauged = weights.iter().copied().sum();
             let total = Gauged { value: sum.value.min(1.0), gauge: sum.gauge };
             return (weights, total);
         }
         let sum: f64 = epsilons.iter().sum();
-        let total = self.weight(sum.min(1.0).into(), tau);
+        let total = weight(sum.min(1.0).into());
         (epsilons.iter().map(|&e| total * Gauged::from(e / sum)).collect(), total)
     }
 
@@ -266,8 +256,10 @@ impl Model {
     }
 
     pub(super) fn shared_weights(&self, problem: &SharedCells) -> GaugedAnswers {
-        let shares = problem.cells.iter().flat_map(|(epsilons, tau)| self.share(epsilons, *tau).0);
-        let weights: Vec<Gauged> = shares.collect();
+        let share = |(epsilons, tau): &([f64; 2], f64)| {
+            self.share(epsilons, |epsilon| self.weight(epsilon, *tau)).0
+        };
+        let weights: Vec<Gauged> = problem.cells.iter().flat_map(share).collect();
         GaugedAnswers::default().with("weight", &[problem.cells.len(), 2], &weights)
     }
 

@@ -9,6 +9,7 @@ mod cell;
 mod constants;
 mod contact;
 mod faces;
+mod graded;
 mod scene;
 
 use psmrt_reference::directions::{C, Q, number_of};
@@ -72,7 +73,7 @@ impl Model {
             weights: constants::weights(mistake),
             opposite: std::array::from_fn(|a| opposite(a, mistake, order)),
             columns: constants::columns(&matrix),
-            inverse_columns: constants::columns(&constants::inverse(&matrix)),
+            inverse_columns: constants::inverse_columns(&matrix),
             matrix,
         }
     }

@@ -1,6 +1,7 @@
 //! Stages 0 to 2: constants, moments, and collisions of single cells.
 
 use psmrt_reference::collision::Collision;
+use psmrt_reference::lattice::Vec3;
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::rates::{RateError, Rates};
 
@@ -11,6 +12,11 @@ use super::MakeError;
 
 /// Cells of each problem.
 const CELLS: usize = 8;
+
+/// The operator of graded viscosity.
+const GRADED: &str = "F = (1 - B) G + 2 B (rho u_p - j), B = k epsilon/[(1 - epsilon) + k epsilon], \
+                      k = (tau - 1/2)^2/(4 (tau - 1/2) + 0.4); MRT with this force, of even moments \
+                      1/s - 1/2 = (tau - 1/2)/(1 - epsilon), of odd ones 1/s - 1/2 = 0.002 (1 - epsilon)/(tau - 1/2)";
 
 pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
     let mut problems = vec![
@@ -42,6 +48,7 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
     let solid = Some((bounce, Weighting::NobleTorczynski));
     let superposed = Some((SolidOperator::Superposition, Weighting::NobleTorczynski));
     let whole = Some((SolidOperator::FullBounceBack, Weighting::NobleTorczynski));
+    let graded = Some((SolidOperator::GradedViscosity, Weighting::Graded));
     for (seed, (id, title, equation, flags, parts)) in [
         ("srt", "SRT", "Eq. 2", &["srt"] as &[_], Parts::new(false, false, None)),
         ("mrt", "MRT", "Eq. 3", &["mrt"], Parts::new(true, false, None)),
@@ -115,6 +122,20 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             &["mrt", "solid", "full_bounce_back", "body_force"],
             Parts::new(true, true, whole),
         ),
+        (
+            "ps_srt_graded_viscosity",
+            "PS-SRT, graded viscosity, solids at rest",
+            GRADED,
+            &["srt", "solid", "graded_viscosity"],
+            Parts::new(false, false, graded),
+        ),
+        (
+            "ps_mrt_graded_viscosity",
+            "PS-MRT with a body force, graded viscosity, solids at rest",
+            GRADED,
+            &["mrt", "solid", "graded_viscosity", "body_force"],
+            Parts::new(true, true, graded),
+        ),
     ]
     .into_iter()
     .enumerate()
@@ -125,7 +146,11 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             id,
             stage: 2,
             title,
-            notes: if parts.solid.is_some() {
+            notes: if operator == SolidOperator::GradedViscosity {
+                "Cut and full cells do not collide as the fluid does: of tau = 1/s_nu and epsilon alone follow \
+                 their rates and the weight B of the drag. A cell without solid is fluid. Force is that of \
+                 the fluid on the solid, -2 B (rho u_p - j)."
+            } else if parts.solid.is_some() {
                 "The weight is Noble and Torczynski's B(epsilon, tau) with tau = 1/s_nu; force is that \
                  of the fluid on the solid, -B sum_a Lambda_a c_a."
             } else {
@@ -179,7 +204,8 @@ fn cells(seed: u64, parts: &Parts) -> Result<Vec<CollidingCell>, RateError> {
             1 => 1.0,
             _ => random.between(0.05, 0.95),
         };
-        let u_p = random.vector(0.05);
+        let at_rest = matches!(parts.solid, Some((SolidOperator::GradedViscosity, _)));
+        let u_p = if at_rest { Vec3::zeros() } else { random.vector(0.05) };
         cells.push(CollidingCell {
             f,
             collision,

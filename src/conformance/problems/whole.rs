@@ -3,7 +3,7 @@
 use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{Domain, Face, Faces};
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::partial_saturation::SolidOperator;
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::setup::{Setup, SolidPhase};
 use psmrt_reference::solids::Solid;
 
@@ -43,7 +43,7 @@ impl Default for Parts {
 pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
     let force = Some(Vec3::new(0.004, -0.002, 0.003));
     let still = [0.0; 3];
-    let scenes: [(_, _, &[_], _); 8] = [
+    let scenes: [(_, _, &[_], _); 9] = [
         ("box_srt", "periodic box, SRT", &["srt"], Parts { mrt: false, ..Parts::default() }),
         (
             "box_mrt",
@@ -122,6 +122,21 @@ pub(super) fn problems() -> Result<Vec<Problem>, MakeError> {
             },
         ),
         (
+            "bed_graded_viscosity",
+            "two spheres at rest that share cells and cross a periodic face, graded viscosity",
+            &["mrt", "solid", "graded_viscosity", "periodic_image", "shared_cells", "body_force"],
+            Parts {
+                cells: [6, 6, 5],
+                body_force: force,
+                solids: vec![
+                    sphere([0.4, 2.4, 2.6], 1.6, still, still),
+                    sphere([3.3, 2.7, 2.3], 1.4, still, still),
+                ],
+                operator: SolidOperator::GradedViscosity,
+                ..Parts::default()
+            },
+        ),
+        (
             "moving_sphere",
             "a sphere that moves and spins through a periodic face, PS-MRT",
             &["mrt", "solid", "spin", "moving_solid", "exact_coverage", "periodic_image"],
@@ -169,7 +184,12 @@ fn scene(seed: u64, parts: Parts) -> Result<Task, MakeError> {
     if !parts.solids.is_empty() {
         wanted.push(Wanted::Loads);
         let (solids, operator) = (parts.solids, parts.operator);
-        setup.solid_phase = Some(SolidPhase { solids, operator, ..SolidPhase::default() });
+        let weighting = match operator {
+            SolidOperator::GradedViscosity => Weighting::Graded,
+            _ => Weighting::NobleTorczynski,
+        };
+        let phase = SolidPhase { solids, operator, weighting, ..SolidPhase::default() };
+        setup.solid_phase = Some(phase);
     }
     Ok(Task::Scene(Box::new(Scene {
         setup,

@@ -6,7 +6,7 @@ use super::Trouble;
 use super::grains::GrainList;
 use crate::scene::format::SceneFile;
 use crate::scene::format_free::GravityForm;
-use crate::scene::format_grains::Motion;
+use crate::scene::format_grains::MotionKind;
 
 /// Errors where something else holds up fluid and grains, or pushes them.
 pub(super) fn check(file: &SceneFile, list: &GrainList, domain: &Domain) -> Result<(), Trouble> {
@@ -40,7 +40,7 @@ pub(super) fn check(file: &SceneFile, list: &GrainList, domain: &Domain) -> Resu
             }
         }
     }
-    if let Some(grain) = list.grains.iter().find(|grain| grain.motion != Motion::Free) {
+    if let Some(grain) = list.grains.iter().find(|grain| grain.motion != MotionKind::Free) {
         let problem = format!(
             "the grain of `{}` is not free: it holds up the fluid, so that nothing is to be balanced",
             grain.key

@@ -11,7 +11,7 @@ use psmrt_reference::grains::grain::{Grain, sphere_volume};
 
 use super::Trouble;
 use super::contact::DEFAULT_FRICTION;
-use super::listed::{Ball, Place, check_size, size_key};
+use super::listed::{Ball, Site, check_size, size_key};
 use super::numbers::{absent, coefficient, count, needed, positive};
 use crate::packing::{Amount, Sizes};
 use crate::scene::format_grains::GrainsSection;
@@ -29,7 +29,7 @@ const MOST_GRAINS: usize = 1_000_000;
 const MOST_IN_BED: usize = 20_000;
 
 /// A random suspension.
-pub(super) fn random(section: &GrainsSection, place: &Place) -> Result<Vec<Ball>, Trouble> {
+pub(super) fn random(section: &GrainsSection, place: &Site) -> Result<Vec<Ball>, Trouble> {
     let (at, si_lengths) = (&place.at, place.si_lengths());
     absent(&at("packing_friction"), section.packing_friction.as_ref(), "grains of kind `bed`")?;
     let seed = seed(section, place)?;
@@ -72,7 +72,7 @@ pub(super) fn random(section: &GrainsSection, place: &Place) -> Result<Vec<Ball>
 }
 
 /// A settled bed on the face at z = 0.
-pub(super) fn bed(section: &GrainsSection, place: &Place) -> Result<Vec<Ball>, Trouble> {
+pub(super) fn bed(section: &GrainsSection, place: &Site) -> Result<Vec<Ball>, Trouble> {
     let (at, si_lengths) = (&place.at, place.si_lengths());
     absent(&at("gap"), section.gap.as_ref(), "grains of kind `random`")?;
     let belongs = "grains of kind `array` and `random`; friction sets the density of a bed";
@@ -102,7 +102,7 @@ pub(super) fn bed(section: &GrainsSection, place: &Place) -> Result<Vec<Ball>, T
     balls(SettledBed { lengths, sides, radii, friction, seed }.make(), place)
 }
 
-fn seed(section: &GrainsSection, place: &Place) -> Result<u64, Trouble> {
+fn seed(section: &GrainsSection, place: &Site) -> Result<u64, Trouble> {
     u64::try_from(section.seed.unwrap_or(1)).map_err(|_| {
         Trouble::new((place.at)("seed"), "it must be a whole number of at least 0", "try 1")
     })
@@ -119,7 +119,7 @@ fn whole(key: &str, given: i64, most: usize) -> Result<usize, Trouble> {
 /// Radii, m: all alike, or evenly distributed over `diameter_range`.
 fn radii(
     section: &GrainsSection,
-    place: &Place,
+    place: &Site,
     amount: Amount,
     seed: u64,
 ) -> Result<Vec<f64>, Trouble> {
@@ -162,7 +162,7 @@ fn radii(
     })
 }
 
-fn balls(packing: Result<Packing, PackingError>, place: &Place) -> Result<Vec<Ball>, Trouble> {
+fn balls(packing: Result<Packing, PackingError>, place: &Site) -> Result<Vec<Ball>, Trouble> {
     let packing = packing.map_err(|error| {
         let remedy = "change number, size, seed or domain; `psmrt pack` makes dense packings";
         Trouble::new((place.at)("kind"), error.to_string(), remedy)

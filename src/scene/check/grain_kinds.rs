@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::listed::{Ball, Place};
+use super::listed::{Ball, Site};
 use super::numbers::{absent, finite, needed, positive};
 use super::{Trouble, arrays, generated, grain_list};
 use crate::scene::format_grains::{GrainsKind, GrainsSection};
@@ -46,7 +46,7 @@ pub(super) fn foreign_keys(
 pub(super) fn balls(
     section: &GrainsSection,
     folder: &Path,
-    place: &Place,
+    place: &Site,
 ) -> Result<(Vec<Ball>, Option<Vec<u8>>), Trouble> {
     let balls = match section.kind {
         GrainsKind::Sphere => vec![sphere(section, place.at)?],

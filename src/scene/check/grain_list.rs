@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::Trouble;
 pub use super::list_header::COLUMNS;
-use super::list_header::{Column, columns, wanted};
+use super::list_header::{ListColumn, columns, wanted};
 use super::list_text::{Fault, as_decimal_comma, as_fortran, cells, decoded, numbered_lines};
 use super::listed::Ball;
 use crate::input;
@@ -58,7 +58,7 @@ fn balls(text: &str) -> Result<Vec<Ball>, (usize, Fault)> {
     Ok(balls)
 }
 
-fn ball(row: &str, columns: &[Column], line: usize) -> Result<Ball, Fault> {
+fn ball(row: &str, columns: &[ListColumn], line: usize) -> Result<Ball, Fault> {
     let cells = cells(row);
     if cells.iter().all(|cell| cell.is_empty()) {
         let problem = "there are only commas in it: an empty row of a spreadsheet";
@@ -82,26 +82,26 @@ fn ball(row: &str, columns: &[Column], line: usize) -> Result<Ball, Fault> {
     for (column, cell) in columns.iter().zip(cells) {
         let value = number(*column, cell)?;
         match *column {
-            Column::Place(axis) => ball.si_centre[axis] = value,
-            Column::Diameter => ball.si_diameter = value,
-            Column::Radius => ball.si_diameter = 2.0 * value,
-            Column::Density => ball.si_density = Some(value),
+            ListColumn::Place(axis) => ball.si_centre[axis] = value,
+            ListColumn::Diameter => ball.si_diameter = value,
+            ListColumn::Radius => ball.si_diameter = 2.0 * value,
+            ListColumn::Density => ball.si_density = Some(value),
         }
     }
     Ok(ball)
 }
 
-fn number(column: Column, cell: &str) -> Result<f64, Fault> {
-    let is_place = matches!(column, Column::Place(_));
+fn number(column: ListColumn, cell: &str) -> Result<f64, Fault> {
+    let is_place = matches!(column, ListColumn::Place(_));
     match cell.parse::<f64>() {
         Ok(value) if value.is_finite() && (is_place || value > 0.0) => return Ok(value),
         _ => {}
     }
     let name = match column {
-        Column::Place(axis) => COLUMNS[axis],
-        Column::Diameter => COLUMNS[3],
-        Column::Radius => "radius (m)",
-        Column::Density => COLUMNS[4],
+        ListColumn::Place(axis) => COLUMNS[axis],
+        ListColumn::Diameter => COLUMNS[3],
+        ListColumn::Radius => "radius (m)",
+        ListColumn::Density => COLUMNS[4],
     };
     let problem = format!("{name} = {} is not allowed", quoted(cell));
     let remedy = if let Some(number) = as_fortran(cell) {

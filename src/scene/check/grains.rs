@@ -6,10 +6,10 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
-use super::listed::{Ball, Listed, Place, check_size, place_key, size_key};
+use super::listed::{Ball, Listed, Site, check_size, place_key, size_key};
 use super::numbers::{absent, beyond, finite, needed, positive, shorter_step};
 use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
-use crate::scene::format_grains::{GrainsSection, Motion};
+use crate::scene::format_grains::{GrainsSection, MotionKind};
 use crate::units::Units;
 
 /// Densities of free grains over that of the fluid: beyond lie mistaken units.
@@ -53,10 +53,10 @@ impl GrainList {
             let at = |key: &str| format!("grains[{number}].{key}");
             grain_kinds::foreign_keys(section, &at)?;
             let (velocity, angular_velocity) = motion(section, &at, units)?;
-            let place = Place { at: &at, domain, units };
+            let place = Site { at: &at, domain, units };
             let (balls, bytes) = grain_kinds::balls(section, folder, &place)?;
             let unused_densities =
-                section.motion != Motion::Free && balls.iter().any(|b| b.si_density.is_some());
+                section.motion != MotionKind::Free && balls.iter().any(|b| b.si_density.is_some());
             list.attachments.extend(bytes.map(|bytes| Attachment {
                 section: number,
                 bytes,
@@ -91,7 +91,7 @@ impl GrainList {
 
     /// The free ones.
     pub fn free(&self) -> impl Iterator<Item = &Listed> {
-        self.grains.iter().filter(|listed| listed.motion == Motion::Free)
+        self.grains.iter().filter(|listed| listed.motion == MotionKind::Free)
     }
 
     /// All as solids of the fluid.
@@ -111,16 +111,16 @@ fn motion(
     units: &Units,
 ) -> Result<(Vec3, Vec3), Trouble> {
     match section.motion {
-        Motion::Fixed => {
+        MotionKind::Fixed => {
             let belongs = "`motion = \"prescribed\"` or \"free\"";
             absent(&at("velocity"), section.velocity.as_ref(), belongs)?;
             absent(&at("spin"), section.spin.as_ref(), belongs)?;
         }
-        Motion::Prescribed if section.velocity.is_none() && section.spin.is_none() => {
+        MotionKind::Prescribed if section.velocity.is_none() && section.spin.is_none() => {
             let problem = "it needs `velocity` (m/s) or `spin` (rad/s), and has neither";
             return Err(Trouble::new(at("motion"), problem, "add one of them, or use \"fixed\""));
         }
-        Motion::Prescribed | Motion::Free => {}
+        MotionKind::Prescribed | MotionKind::Free => {}
     }
     let velocity = match section.velocity {
         Some(si_velocity) => super::velocity(&at("velocity"), si_velocity, units)?,
@@ -139,7 +139,7 @@ fn density(
     units: &Units,
 ) -> Result<f64, Trouble> {
     let key = at("density");
-    if section.motion != Motion::Free {
+    if section.motion != MotionKind::Free {
         absent(&key, section.density.as_ref(), "`motion = \"free\"`")?;
         return Ok(1.0);
     }

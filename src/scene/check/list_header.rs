@@ -8,7 +8,7 @@ pub const COLUMNS: [&str; 5] = ["x (m)", "y (m)", "z (m)", "diameter (m)", "dens
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Column {
+pub(super) enum ListColumn {
     /// Place along an axis, m.
     Place(usize),
     Diameter,
@@ -22,7 +22,7 @@ pub(super) fn wanted() -> String {
 }
 
 /// The columns that a first line names, in any order.
-pub(super) fn columns(line: &str) -> Result<Vec<Column>, Fault> {
+pub(super) fn columns(line: &str) -> Result<Vec<ListColumn>, Fault> {
     let names = cells(line);
     separators(line, names.len())?;
     if names.iter().all(|name| is_number(name)) {
@@ -41,9 +41,9 @@ pub(super) fn columns(line: &str) -> Result<Vec<Column>, Fault> {
         }
         columns.push(column);
     }
-    let missing = (0..3).map(Column::Place).position(|place| !columns.contains(&place));
+    let missing = (0..3).map(ListColumn::Place).position(|place| !columns.contains(&place));
     let missing = missing.map(|axis| COLUMNS[axis]);
-    let sizes = [Column::Diameter, Column::Radius].map(|size| columns.contains(&size));
+    let sizes = [ListColumn::Diameter, ListColumn::Radius].map(|size| columns.contains(&size));
     match (missing, sizes) {
         (Some(missing), _) => Err((
             format!("there is no column \"{missing}\""),
@@ -78,19 +78,19 @@ fn separators(line: &str, commas: usize) -> Result<(), Fault> {
     Err((format!("its columns are separated by {name}"), remedy))
 }
 
-fn column(number: usize, cell: &str) -> Result<Column, Fault> {
+fn column(number: usize, cell: &str) -> Result<ListColumn, Fault> {
     let at = number + 1;
     let (name, unit) = match cell.split_once(['(', '[']) {
         Some((name, unit)) => (name, unit.trim_end().trim_end_matches([')', ']']).trim()),
         None => (cell, ""),
     };
     let (column, proper) = match name.trim().to_lowercase().as_str() {
-        "x" => (Column::Place(0), COLUMNS[0]),
-        "y" => (Column::Place(1), COLUMNS[1]),
-        "z" => (Column::Place(2), COLUMNS[2]),
-        "diameter" | "d" => (Column::Diameter, COLUMNS[3]),
-        "radius" | "r" => (Column::Radius, "radius (m)"),
-        "density" | "rho" => (Column::Density, COLUMNS[4]),
+        "x" => (ListColumn::Place(0), COLUMNS[0]),
+        "y" => (ListColumn::Place(1), COLUMNS[1]),
+        "z" => (ListColumn::Place(2), COLUMNS[2]),
+        "diameter" | "d" => (ListColumn::Diameter, COLUMNS[3]),
+        "radius" | "r" => (ListColumn::Radius, "radius (m)"),
+        "density" | "rho" => (ListColumn::Density, COLUMNS[4]),
         "" => {
             let problem = format!("column {at} has no name");
             return Err((problem, "remove the empty column: commas at the end of lines".into()));
@@ -102,9 +102,11 @@ fn column(number: usize, cell: &str) -> Result<Column, Fault> {
         }
     };
     let factor = match (column, unit) {
-        (Column::Density, "kg/m3" | "kg/m^3" | "kg/m³" | "kg m-3") => return Ok(column),
-        (Column::Density, "g/cm3" | "g/cm^3" | "g/cm³" | "g/cc") => Some("multiply it by 1000"),
-        (Column::Density, _) => None,
+        (ListColumn::Density, "kg/m3" | "kg/m^3" | "kg/m³" | "kg m-3") => return Ok(column),
+        (ListColumn::Density, "g/cm3" | "g/cm^3" | "g/cm³" | "g/cc") => {
+            Some("multiply it by 1000")
+        }
+        (ListColumn::Density, _) => None,
         (_, "m") => return Ok(column),
         (_, "mm") => Some("divide it by 1000"),
         (_, "cm") => Some("divide it by 100"),

@@ -6,7 +6,7 @@ use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::lattice::Vec3;
 
 use super::Trouble;
-use crate::scene::format_grains::{GrainsKind, GrainsSection, Motion};
+use crate::scene::format_grains::{GrainsKind, GrainsSection, MotionKind};
 use crate::units::Units;
 
 /// A grain with fewer cells across is not seen by the fluid as a sphere at all.
@@ -24,13 +24,13 @@ pub(super) struct Ball {
 }
 
 /// Where grains are put down: the domain, and how a key of their section is called.
-pub(super) struct Place<'a> {
+pub(super) struct Site<'a> {
     pub at: &'a dyn Fn(&str) -> String,
     pub domain: &'a Domain,
     pub units: &'a Units,
 }
 
-impl Place<'_> {
+impl Site<'_> {
     /// Lengths of the domain, m.
     pub fn si_lengths(&self) -> [f64; 3] {
         self.domain.cells().map(|n| n as f64 * self.units.si_dx)
@@ -43,7 +43,7 @@ pub(super) struct Listed {
     pub key: String,
     /// Its line in the file that it comes from.
     pub line: Option<usize>,
-    pub motion: Motion,
+    pub motion: MotionKind,
     pub centre: Vec3,
     pub radius: f64,
     /// Over that of the fluid; 1 for grains that are not free, where it means nothing.
@@ -114,7 +114,7 @@ impl Listed {
         let grain = Grain::sphere(self.centre, self.radius, self.density)
             .moving(self.velocity)
             .spinning(self.angular_velocity);
-        Grain { held: self.motion != Motion::Free, ..grain }
+        Grain { held: self.motion != MotionKind::Free, ..grain }
     }
 }
 

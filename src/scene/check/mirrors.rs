@@ -6,7 +6,7 @@ use psmrt_reference::domain::{Domain, Face};
 use super::Trouble;
 use super::grains::GrainList;
 use super::neighbours::MAX_OVERLAP;
-use crate::scene::format_grains::Motion;
+use crate::scene::format_grains::MotionKind;
 use crate::units::Units;
 
 /// A centre that lies this close to a mirror plane, in cells, lies on it.
@@ -28,7 +28,8 @@ pub(super) fn centred(
                 continue;
             }
             let plane = if side == 0 { 0.0 } else { domain.cells()[axis] as f64 };
-            for listed in list.grains.iter_mut().filter(|listed| listed.motion == Motion::Free) {
+            for listed in list.grains.iter_mut().filter(|listed| listed.motion == MotionKind::Free)
+            {
                 let distance = (listed.centre[axis] - plane).abs();
                 let is_clear = listed.radius - distance <= MAX_OVERLAP * listed.radius;
                 if distance <= ON_PLANE {

@@ -9,7 +9,7 @@ use super::Trouble;
 use super::grains::Attachment;
 use super::numbers::{absent, count, finite, needed, steps};
 use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
-use crate::scene::names::{self, Made, Maker};
+use crate::scene::names::{self, Made, MadeBy};
 use crate::units::Units;
 
 /// A record of a run.
@@ -205,13 +205,13 @@ pub(super) fn files_differ(
     let made = names::all(records, lists, compares);
     let Some([earlier, later]) = names::meeting(&made) else { return Ok(()) };
     let owner = |made: &Made| match made.by {
-        Maker::Run => "every run makes one of that name".to_owned(),
-        Maker::Comparison => "the comparison with the exact solution has that name".to_owned(),
-        Maker::List(section) => format!("the copy of the list of grains[{section}] has that name"),
-        Maker::Record(number) => format!("records[{number}] makes one of that name"),
+        MadeBy::Run => "every run makes one of that name".to_owned(),
+        MadeBy::Comparison => "the comparison with the exact solution has that name".to_owned(),
+        MadeBy::List(section) => format!("the copy of the list of grains[{section}] has that name"),
+        MadeBy::Record(number) => format!("records[{number}] makes one of that name"),
     };
     let key = match later.by {
-        Maker::Record(number) => format!("records[{number}].name"),
+        MadeBy::Record(number) => format!("records[{number}].name"),
         _ => "records".to_owned(),
     };
     let problem =

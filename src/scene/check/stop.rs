@@ -117,6 +117,6 @@ fn columns(record: &Record) -> Option<&'static [Column]> {
         What::Box => Some(&BOX_COLUMNS),
         What::GrainMeans => Some(&GRAIN_MEAN_COLUMNS),
         What::Loads => Some(&FORCE_COLUMNS),
-        _ => None,
+        What::Profile { .. } | What::Fields { .. } | What::Slice { .. } | What::Grains => None,
     }
 }

@@ -9,7 +9,7 @@ use clap::Subcommand;
 use crate::cases::{Bench, CASES, Case, DRIFT_WORDS, Drift, Golden, drifts};
 use crate::failure::Failure;
 use psmrt::command::execute::interruption;
-use psmrt::command::progress::Progress;
+use psmrt::command::progress::ProgressLine;
 use psmrt::command::say::{say, tell};
 use psmrt::command::write;
 use psmrt::engine::EngineName;
@@ -61,7 +61,7 @@ pub fn golden(command: &GoldenCommand) -> Result<(), Failure> {
             tell(&format!("  {what}"));
         })
         .watched(Box::new(move |scene| {
-            Box::new(Progress::new(scene, false, Arc::clone(&interrupted)))
+            Box::new(ProgressLine::new(scene, false, Arc::clone(&interrupted)))
         }));
         let new = bench.measure(case)?;
         let old = if path.exists() { Some(golden.table(case.rows)?) } else { None };

@@ -18,7 +18,7 @@ use super::report_request::ReportRequest;
 use crate::cases::{Bench, CASES, Case, CaseError, Claim, Golden, Settled, drawn, steadiness};
 use crate::failure::Failure;
 use psmrt::command::execute::interruption;
-use psmrt::command::progress::Progress;
+use psmrt::command::progress::ProgressLine;
 use psmrt::command::say::{say, tell};
 use psmrt::command::write;
 use psmrt::engine::EngineName;
@@ -123,7 +123,7 @@ fn bench(
     let interrupted = Arc::clone(interrupted);
     let bench = Bench::new(&request.golden, engine, gpu, |what| tell(&format!("  {what}")))
         .watched(Box::new(move |scene| {
-            Box::new(Progress::new(scene, json, Arc::clone(&interrupted)))
+            Box::new(ProgressLine::new(scene, json, Arc::clone(&interrupted)))
         }));
     if request.full { bench.at_full_scale(&request.out.join("runs")) } else { bench }
 }

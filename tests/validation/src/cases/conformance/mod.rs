@@ -56,7 +56,7 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     wrong.sort_by(|a, b| b.total_cmp(a));
     let points = (1..).map(f64::from).zip(wrong).collect();
     let figure = Figure::new(
-        "How many of the kit's 80 answers a mistake spoils",
+        "How many of the kit's answers a mistake spoils",
         Axis::linear("planted mistakes, the most harmful first"),
         Axis::linear("wrong answers").range(0.0, 80.0),
     );
