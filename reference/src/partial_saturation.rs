@@ -93,6 +93,12 @@ pub struct CellState<'a> {
 }
 
 impl SolidOperator {
+    /// Whether a full cell turns every population back. What moves between two full cells then goes to and fro between them
+    /// for ever, and the force on the solid with it: such a cell must start with its solid (`start.rs`).
+    pub fn turns_populations_back(self) -> bool {
+        matches!(self, SolidOperator::FullBounceBack | SolidOperator::GradedViscosity)
+    }
+
     /// Whether the velocity that a free grain has in a collision is solved for before it (`coupling/implicit.rs`): with
     /// the one that it has come with, this operator is unstable.
     pub fn asks_for_implicit_coupling(self) -> bool {

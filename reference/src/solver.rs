@@ -56,14 +56,16 @@ impl Solver {
     }
 
     /// A fluid whose density and velocity at each cell centre are `state(centre)`, with the
-    /// populations in equilibrium; if a solid moves, all cells that solids cover start with their
-    /// solid (`start.rs`). Errors if the set-up cannot be run.
+    /// populations in equilibrium; if a solid moves, or its operator turns populations back, all cells that solids cover
+    /// start with their solid (`start.rs`). Errors if the set-up cannot be run.
     pub fn starting_from(
         setup: Setup,
         state: impl Fn(Vec3) -> (f64, Vec3),
     ) -> Result<Self, SetupError> {
-        let any_moves = setup.solid_phase.iter().any(|p| p.solids.iter().any(Solid::has_velocity));
-        Self::started(setup, state, any_moves)
+        let with_solids = setup.solid_phase.iter().any(|phase| {
+            phase.operator.turns_populations_back() || phase.solids.iter().any(Solid::has_velocity)
+        });
+        Self::started(setup, state, with_solids)
     }
 
     /// The same with solids that are free to move: the cells that they cover start with them, also

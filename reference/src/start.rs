@@ -6,6 +6,10 @@
 //! fills it, by volume: the momentum in the covered part of all cells is then `m_f v`, and that of fluid
 //! and grain together what the grain's mass and the fluid around it make it (`coupling/mod.rs`).
 //!
+//! Where the operator turns populations back, cells start with their solid even if it is at rest: between full cells nothing
+//! is ever lost, and what they start with would make the force on the solid swing from step to step for ever
+//! (`tests/oracle/momentum_balance.rs`). With the paper's operator such momentum is gone after a step.
+//!
 //! A scene says thereby: at the start the grain has its velocity and the fluid outside its own, up to the
 //! surface. Both are only possible for a moment. Fluid that has to give way takes up its share of the
 //! momentum by sound, within a few `a/c_s`: a lone sphere keeps `r/(r + 1/2)` of its velocity, with `r`

@@ -113,10 +113,14 @@ impl Solids {
         self.movable().map_or(Ok(()), |movable| movable.find(gpu, &self.touches))
     }
 
-    /// The covered cells, how much of them is solid, and `Σ ε_s u_s`, where solids may move.
+    /// The covered cells, how much of them is solid, and `Σ ε_s u_s`, where solids may move, or turn populations back:
+    /// between such cells momentum would go to and fro for ever.
     pub(super) fn motions(&self, domain: &Domain, phase: &SolidPhase) -> Vec<(u32, f64, Vec3)> {
         match self.kept {
             Kept::Movable(_) => Coverage::of(domain, phase).motions(phase),
+            Kept::Fixed(_) if phase.operator.turns_populations_back() => {
+                Coverage::of(domain, phase).motions(phase)
+            }
             Kept::Fixed(_) => Vec::new(),
         }
     }

@@ -59,7 +59,10 @@ impl<T: Real> Fluid<T> {
     pub fn starting_from(setup: Setup, state: &dyn Fn(Vec3) -> (f64, Vec3), is_free: bool) -> Self {
         let mut fluid = Self::empty(setup);
         let has_velocity = fluid.solids().iter().any(Solid::has_velocity);
-        fluid.fill(state, is_free || has_velocity);
+        // Between cells that turn populations back momentum would go to and fro for ever.
+        let phase = fluid.setup.solid_phase.as_ref();
+        let turns_back = phase.is_some_and(|phase| phase.operator.turns_populations_back());
+        fluid.fill(state, is_free || has_velocity || turns_back);
         fluid.entering = Entering::new(&fluid.setup.domain, &fluid.grid);
         fluid
     }
