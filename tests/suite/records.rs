@@ -143,6 +143,9 @@ kinematic_viscosity = 1e-6
 tau = 0.9
 [body_force]
 acceleration = [1000.0, 0.0, 0.0]
+# With an operator that turns populations back covered cells start with their solid, not as they are told.
+[solid]
+operator = "bounce_back"
 [[grains]]
 kind = "sphere"
 centre = [4e-5, 4e-5, 4e-5]
