@@ -27,7 +27,7 @@ pub(crate) mod velocity;
 pub(crate) mod warning;
 pub(crate) mod warnings;
 
-pub use self::models::models;
+pub use self::models::{models, operator};
 pub use self::number::Number;
 pub use self::numbers::numbers;
 pub use self::speed::calibrate;

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::progress::ProgressLine;
 use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, summary, write};
-use crate::advice::estimate::{Warning, disk, warnings};
+use crate::advice::estimate::{Warning, disk, operator, warnings};
 use crate::checkpoint::Progress;
 use crate::engine::Coupled;
 use crate::output::folder::RunFolder;
@@ -95,6 +95,9 @@ pub(super) fn execute(
         steps as f64 * scene.units.si_dt,
         updates / seconds / 1e6
     ));
+    if let Some(operator) = operator(scene) {
+        say(&operator);
+    }
     if let Some(profile) = engine.profile() {
         say(&profile::to_text(&profile));
     }
@@ -199,6 +202,7 @@ fn write_facts(
         "dt_s": scene.units.si_dt,
         "dx_m": scene.units.si_dx,
         "tau": scene.setup.collision.tau(),
+        "solid_operator": operator(scene),
         "warnings": all_warnings(scene, folder.path()),
         "steady": end.map(|end| summary::steady(scene, engine, end)),
         "results": end.map(|_| summary::results(scene, engine)),

@@ -1,5 +1,6 @@
 //! The keys of grains and of the solid's collision.
 
+use psmrt_reference::partial_saturation::SolidOperator;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -100,7 +101,7 @@ pub enum MotionKind {
 }
 
 /// How grains act on the fluid: the partially saturated method (PSM), one of the immersed moving boundary (IMB)
-/// methods. The defaults converge with the grid (golden/tradeoff). With `solid_fraction` the flow through an array is
+/// methods. `bounce_back` and graded viscosity converge with the grid (golden/tradeoff). With `solid_fraction` the flow through an array is
 /// up to 55 % too slow at tau 0.6 and up to 7 times too fast at 1.5; in between it is right by cancellation only. With
 /// `superposition` errors are 1.4 to 2.9 times those of the default, depending on the flow. Sampled solid fractions
 /// change the error by a fifth with 2 points along each axis, and by 2 % with 5 (medians).
@@ -108,17 +109,20 @@ pub enum MotionKind {
 #[serde(deny_unknown_fields)]
 pub struct SolidSection {
     /// Weight `B` of the solid in a cell: `noble_torczynski` (the default) or `solid_fraction`. Not with
-    /// `graded_viscosity`, which has its own.
+    /// `graded_viscosity`, which has its own; where it is given and no `operator` is, that is `bounce_back`.
     pub weighting: Option<WeightingName>,
-    /// Collision in the solid: `bounce_back` of the non-equilibrium part (SC1 of the literature, the default),
-    /// `superposition` (SC2), `full_bounce_back` (SC3) or `graded_viscosity`, of psmrt's own making. With the last two no
-    /// fluid passes through the cells that a solid fills. `graded_viscosity` is the most accurate for beds of fixed
-    /// grains: within 3 % of the drag at 14 to 16 cells per diameter and tau from 0.55 to 1 where the default is up to 25 %
-    /// off; it is not for free grains. Free grains with `full_bounce_back` are coupled implicitly: the velocity that they
-    /// have in a collision is solved for before it. At 4 and 6 cells per diameter and tau = 0.7 they then settle with 1.04
-    /// and 0.99 of the exact velocity, with the default with 1.25 and 1.09 (tests/oracle/implicit_coupling.rs).
-    #[serde(default)]
-    pub operator: OperatorName,
+    /// Collision in the solid: `bounce_back` of the non-equilibrium part (SC1 of the literature, the paper's),
+    /// `superposition` (SC2), `full_bounce_back` (SC3) or `graded_viscosity`, of psmrt's own making. Where absent it is
+    /// chosen: `graded_viscosity` where all grains are fixed, since it is the more accurate there, most of all where grains
+    /// are coarse or tau is large (golden/tradeoff/operators.csv; near tau 1/2 and on fine grids `bounce_back` is as good);
+    /// `bounce_back` where a grain moves or a `weighting` is given, which belongs to it. `psmrt check` says which it is, and
+    /// what error goes with it. With the last two of the four no fluid passes through the cells that a solid fills.
+    /// `graded_viscosity` is not for free grains, and the force on one that moves as prescribed swings with it by some
+    /// percent from step to step. Free grains with `full_bounce_back` are coupled implicitly:
+    /// the velocity that they have in a collision is solved for before it. At 4 and 6 cells per diameter and tau = 0.7 they
+    /// then settle with 1.04 and 0.99 of the exact velocity, with `bounce_back` with 1.25 and 1.09
+    /// (tests/oracle/implicit_coupling.rs).
+    pub operator: Option<OperatorName>,
     /// How the solid fraction of a cell is found: `exact` (the default), `sampled`, or `linear` in the distance between
     /// the centres of grain and cell, the fastest where grains move.
     #[serde(default)]
@@ -139,11 +143,10 @@ pub enum WeightingName {
 }
 
 /// Collision in the solid.
-#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(rename_all = "snake_case")]
 pub enum OperatorName {
     /// Bounce-back of the non-equilibrium part (SC1).
-    #[default]
     BounceBack,
     /// Superposition (SC2).
     Superposition,
@@ -154,6 +157,16 @@ pub enum OperatorName {
 }
 
 impl OperatorName {
+    /// The name of an operator.
+    pub fn of(operator: SolidOperator) -> Self {
+        match operator {
+            SolidOperator::NonEquilibriumBounceBack => OperatorName::BounceBack,
+            SolidOperator::Superposition => OperatorName::Superposition,
+            SolidOperator::FullBounceBack => OperatorName::FullBounceBack,
+            SolidOperator::GradedViscosity => OperatorName::GradedViscosity,
+        }
+    }
+
     /// As scenes spell it.
     pub fn word(self) -> &'static str {
         match self {

@@ -45,6 +45,7 @@ pub use trouble::{SceneError, Trouble};
 use crate::exact::PlanePoiseuille;
 use crate::units::Units;
 use crate::{input, quote};
+use format_grains::OperatorName;
 use source::Source;
 
 /// Bytes that a scene file may have: grains by the million stand in lists beside it.
@@ -63,6 +64,8 @@ pub struct Scene {
     pub units: Units,
     /// The domain, the fluid and the solids in lattice units; free grains too, where they start.
     pub setup: Setup,
+    /// Whether `solid.operator` was not named, so that it was chosen.
+    pub operator_is_chosen: bool,
     /// How the grains move, if some are free.
     pub free: Option<FreePart>,
     /// Velocity at the start, lattice units.
@@ -116,6 +119,10 @@ impl Scene {
         let copy =
             |list: &Attachment| format!("grains[{}].file=\"{}\"", list.section, list.file_name());
         let mut changes: Vec<String> = self.attachments.iter().map(copy).collect();
+        if let Some(phase) = self.setup.solid_phase.as_ref().filter(|_| self.operator_is_chosen) {
+            // Named in what is kept, so that the run goes on with it whatever is chosen later.
+            changes.push(format!("solid.operator=\"{}\"", OperatorName::of(phase.operator).word()));
+        }
         if self.engine != engine {
             changes.push(format!("engine.kind=\"{}\"", engine.word()));
         }

@@ -76,25 +76,35 @@ fn loads_with_the_displaced_force_close_the_balance_of_each_step_to_round_off() 
 
 #[test]
 fn spheres_of_a_steady_array_carry_the_driving_force_of_the_whole_domain() {
-    let mut budget = Budget::oracle(600_000);
+    let mut budget = Budget::oracle(700_000);
     let force = Vec3::new(1e-5, 0.0, 0.0);
-    let domain = Domain::new([8; 3], Faces::PERIODIC).unwrap();
-    let driving = domain.cell_count() as f64 * force.x;
-    let solids = vec![Solid::fixed_sphere(Vec3::repeat(4.0), 3.0)];
-    let setup = Setup::fluid(domain, dhumieres(0.8))
-        .with_body_force(force)
-        .with_solids(SolidPhase { solids, ..SolidPhase::default() });
-    let mut solver = Solver::new(setup).unwrap();
-    // The slowest disturbance falls by e within L²/(4 π² ν), 16 steps, less between the spheres: after
-    // 1,000 steps round-off is left.
-    budget.run(&mut solver, 1000);
-    let total = carried(&solver, &solver.displaced(), force).x;
-    let load = solver.loads()[0].force.x;
-    println!("driving force {driving:.6e}, load {load:.6e}, with what is displaced {total:.6e}");
-    // Round-off of populations that add up to 512, 1e-13, over a force of 5e-3.
-    assert!((total / driving - 1.0).abs() < 1e-10, "{total:e} of {driving:e} is carried");
-    // The solid fraction is 0.22: the load alone lacks about that.
-    assert!((0.75..0.9).contains(&(load / driving)), "the load is {load:e} of {driving:e}");
+    for (weighting, operator, n, steps) in [
+        (Weighting::NobleTorczynski, SolidOperator::NonEquilibriumBounceBack, 6, 800),
+        // Between cells that it fills nothing is ever lost: what the fluid there starts with must not swing.
+        // In its cut cells a mode is damped weakly: with 6 cells 6e-9 were left after 900 steps.
+        (Weighting::Graded, SolidOperator::GradedViscosity, 8, 1000),
+    ] {
+        let domain = Domain::new([n; 3], Faces::PERIODIC).unwrap();
+        let driving = domain.cell_count() as f64 * force.x;
+        let (middle, radius) = (0.5 * n as f64, 0.375 * n as f64);
+        let solids = vec![Solid::fixed_sphere(Vec3::repeat(middle), radius)];
+        let phase = SolidPhase { solids, weighting, operator, ..SolidPhase::default() };
+        let setup = Setup::fluid(domain, dhumieres(0.8)).with_body_force(force);
+        let mut solver = Solver::new(setup.with_solids(phase)).unwrap();
+        // With 6 cells a disturbance was found to fall by e within 45 steps: from 6e-8 after 400 steps to 1e-11.
+        budget.run(&mut solver, steps);
+        let total = carried(&solver, &solver.displaced(), force).x;
+        let load = solver.loads()[0].force.x;
+        println!(
+            "driving force {driving:.6e}, load {load:.6e}, with what is displaced {total:.6e}"
+        );
+        // Round-off of populations that add up to 512, 1e-13, over a force of 5e-3.
+        let off = (total / driving - 1.0).abs();
+        assert!(off < 1e-10, "{operator:?}: {total:e} of {driving:e} is carried");
+        // The solid fraction is 0.22: the load alone lacks about that.
+        let share = load / driving;
+        assert!((0.75..0.9).contains(&share), "{operator:?}: the load is {load:e} of {driving:e}");
+    }
 }
 
 fn law() -> ContactLaw {

@@ -127,6 +127,9 @@ fn a_fluid_at_rest_has_no_velocity_in_the_first_row_whatever_drives_it() {
     let rest = r#"
 [body_force]
 acceleration = [1000.0, 0.0, 0.0]
+# With an operator that turns populations back covered cells start with their solid, not as they are told.
+[solid]
+operator = "bounce_back"
 [[grains]]
 kind = "sphere"
 centre = [4e-5, 4e-5, 4e-5]

@@ -4,7 +4,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use psmrt::advice::estimate::{models, numbers, warnings};
+use psmrt::scene::EngineKind;
 use psmrt::table::Table;
+use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 
 use crate::scenes::{BOX, GRAVITY, free_sphere, scene, water};
 
@@ -127,4 +129,75 @@ fn models_of_grains_are_listed_only_where_they_are_on() {
         !held.contains("DEM") && !held.contains("contact") && !held.contains("gravity"),
         "{held}"
     );
+}
+
+#[test]
+fn an_operator_that_is_not_named_is_chosen_by_what_moves_and_said() {
+    let held = SCENE
+        .replace("density = 2650.0\nmotion = \"free\"", "")
+        .replace("[gravity]\nacceleration = [0.0, 0.0, -9.81]\n[contact]\nfriction = 0.3", "")
+        .replace("grain_means", "loads");
+    let moved = held.replace(
+        "diameter = 5e-5",
+        "diameter = 5e-5\nmotion = \"prescribed\"\nspin = [0.0, 0.0, 1.0]",
+    );
+    let with = |text: &str, keys: &str| format!("{text}[solid]\n{keys}\n");
+    let (paper, graded) = (SolidOperator::NonEquilibriumBounceBack, SolidOperator::GradedViscosity);
+    for (text, operator, weighting, said) in [
+        (
+            held.clone(),
+            graded,
+            Weighting::Graded,
+            "graded_viscosity (chosen, since none is named and all grains are fixed",
+        ),
+        (
+            moved,
+            paper,
+            Weighting::NobleTorczynski,
+            "bounce_back (chosen, since none is named and grains move",
+        ),
+        (
+            with(&held, "coverage = \"linear\""),
+            graded,
+            Weighting::Graded,
+            "graded_viscosity (chosen",
+        ),
+        (
+            SCENE.to_owned(),
+            paper,
+            Weighting::NobleTorczynski,
+            "bounce_back (chosen, since none is named and grains move",
+        ),
+        (
+            with(&held, "weighting = \"noble_torczynski\""),
+            paper,
+            Weighting::NobleTorczynski,
+            "bounce_back (chosen, since none is named but a weighting is given",
+        ),
+        (
+            with(&held, "weighting = \"solid_fraction\""),
+            paper,
+            Weighting::SolidFraction,
+            "bounce_back (chosen",
+        ),
+        (
+            with(&held, "operator = \"bounce_back\""),
+            paper,
+            Weighting::NobleTorczynski,
+            "bounce_back (named",
+        ),
+    ] {
+        let scene = scene(&text);
+        let phase = scene.setup.solid_phase.as_ref().unwrap();
+        assert_eq!((phase.operator, phase.weighting), (operator, weighting), "{text}");
+        let all = models(&scene);
+        let own = all.iter().find(|line| line.contains("solid.operator: "));
+        let own = own.unwrap_or_else(|| panic!("no line of {all:?} names the operator"));
+        assert!(own.contains(said), "{own:?} instead of {said:?}");
+        // What a run keeps names it, so that a resumed run has the same.
+        let kept = scene.clone().as_run(EngineKind::Cpu).unwrap();
+        let kept = self::scene(&kept.text);
+        assert!(!kept.operator_is_chosen, "{}", kept.text);
+        assert_eq!(kept.setup.solid_phase.as_ref().unwrap().operator, operator, "{}", kept.text);
+    }
 }

@@ -4,8 +4,10 @@ use psmrt_reference::collision::Collision;
 use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
+use psmrt_reference::solids::Solid;
 
 use super::grains;
+use crate::scene::format_grains::OperatorName;
 use crate::scene::{OutputInterval, Scene, What};
 
 /// The models that are on, each with the reason.
@@ -38,6 +40,7 @@ pub fn models(scene: &Scene) -> Vec<String> {
                 CoverageRule::Linear => "linear".to_owned(),
             }
         ));
+        models.extend(operator(scene));
         if phase.solids.iter().any(psmrt_reference::solids::Solid::moves) {
             models.push("moving grains: coverage is computed in every step".to_owned());
         }
@@ -79,6 +82,22 @@ pub fn models(scene: &Scene) -> Vec<String> {
         models.push(format!("record {}: {what}, {}{interval}", record.name, record.interval));
     }
     models
+}
+
+/// The operator of the solid, and whether it was chosen, in a line; none without grains.
+pub fn operator(scene: &Scene) -> Option<String> {
+    let phase = scene.setup.solid_phase.as_ref()?;
+    let word = OperatorName::of(phase.operator).word();
+    let is_moved = scene.free.is_some() || phase.solids.iter().any(Solid::has_velocity);
+    let why = match (scene.operator_is_chosen, phase.weighting, is_moved) {
+        (false, ..) => "named in the scene",
+        (true, Weighting::Graded, _) => {
+            "chosen, since none is named and all grains are fixed; the paper's is bounce_back"
+        }
+        (true, _, true) => "chosen, since none is named and grains move",
+        (true, _, false) => "chosen, since none is named but a weighting is given",
+    };
+    Some(format!("solid.operator: {word} ({why})"))
 }
 
 fn face_words(face: &Face) -> &'static str {

@@ -5,6 +5,7 @@ use psmrt_reference::coupling::InternalFluid;
 use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::lattice::viscosity;
+use psmrt_reference::solids::Solid;
 
 use super::drag::{Drag, drag};
 use super::duct::Duct;
@@ -86,6 +87,8 @@ pub struct Facts {
     /// The flow of the maps of stability that it is held to, and its velocity there, m/s; `None` if no
     /// velocity is known.
     pub mapped: Option<(Measured, f64)>,
+    /// Whether all grains are fixed.
+    pub is_fixed: bool,
     /// Density of the lightest free grain over the fluid's, and what becomes of the fluid inside.
     pub lightest: Option<(f64, InternalFluid)>,
     /// Longest time that the scene may run, s.
@@ -131,6 +134,11 @@ impl Facts {
                 * units.si_acceleration(),
             mapped: mapped(scene)
                 .map(|(measured, _, speed, _)| (measured, speed * units.si_velocity())),
+            is_fixed: scene.free.is_none()
+                && !setup
+                    .solid_phase
+                    .iter()
+                    .any(|phase| phase.solids.iter().any(Solid::has_velocity)),
             lightest: lightest(scene),
             si_time: scene.stop.steps as f64 * units.si_dt,
         }))
@@ -147,12 +155,12 @@ impl Facts {
         Facts { solid, mapped, ..self.clone() }
     }
 
-    /// The operator that is more accurate for grains like these, if the scene has another one. Graded viscosity is not for
-    /// free grains.
+    /// The operator that is more accurate for grains like these, if the scene has another one. Graded viscosity is for
+    /// fixed grains; of those that move as prescribed there is no evidence.
     pub fn better_operator(&self) -> Option<SolidMethod> {
-        let best = match (&self.limit, self.lightest) {
-            (Limit::Grains { .. }, None) => SolidMethod::Graded,
-            (Limit::Grains { .. }, Some(_)) => SolidMethod::FullBounceBack,
+        let best = match (&self.limit, self.is_fixed, self.lightest) {
+            (Limit::Grains { .. }, true, _) => SolidMethod::Graded,
+            (Limit::Grains { .. }, false, Some(_)) => SolidMethod::FullBounceBack,
             _ => return None,
         };
         (best != self.solid).then_some(best)

@@ -99,6 +99,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         checkpoint: checkpoint::interval(file.checkpoint.as_ref())?,
         setup,
         free,
+        operator_is_chosen: file.solid.as_ref().is_none_or(|section| section.operator.is_none()),
         initial_velocity,
         records,
         stop,

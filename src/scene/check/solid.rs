@@ -23,7 +23,11 @@ pub(super) fn solid_phase(
         };
     }
     let section = section.cloned().unwrap_or_default();
-    let operator = match section.operator {
+    let name = section.operator.unwrap_or_else(|| {
+        let is_fixed = !has_free && !solids.iter().any(Solid::has_velocity);
+        chosen(&section, is_fixed)
+    });
+    let operator = match name {
         OperatorName::BounceBack => SolidOperator::NonEquilibriumBounceBack,
         OperatorName::Superposition => SolidOperator::Superposition,
         OperatorName::GradedViscosity if has_free => {
@@ -36,12 +40,23 @@ pub(super) fn solid_phase(
         OperatorName::FullBounceBack => SolidOperator::FullBounceBack,
         OperatorName::GradedViscosity => SolidOperator::GradedViscosity,
     };
-    let weighting = weighting(&section)?;
+    let weighting = weighting(&section, name)?;
     Ok(Some(SolidPhase { solids, weighting, operator, coverage: coverage(&section)? }))
 }
 
-fn weighting(section: &SolidSection) -> Result<Weighting, Trouble> {
-    if section.operator == OperatorName::GradedViscosity {
+/// The operator of a scene that names none: the more accurate one where all grains are fixed (golden/tradeoff/operators.csv);
+/// the paper's where some move, since that one cannot move free grains, and the force on one that moves as prescribed swings
+/// from step to step; and where a weight is given, which that one does not have.
+fn chosen(section: &SolidSection, is_fixed: bool) -> OperatorName {
+    if is_fixed && section.weighting.is_none() {
+        OperatorName::GradedViscosity
+    } else {
+        OperatorName::BounceBack
+    }
+}
+
+fn weighting(section: &SolidSection, operator: OperatorName) -> Result<Weighting, Trouble> {
+    if operator == OperatorName::GradedViscosity {
         return match section.weighting {
             None => Ok(Weighting::Graded),
             Some(_) => {
