@@ -24,7 +24,12 @@
 //!   at every `tau`. It is small because the place of a wall between cells hangs on it; 0 would leave the odd moments undamped.
 //! * `k` and `Λ_c` are fitted to the drag on arrays of spheres (Zick & Homsy 1982) with 13.9 and 15.8 cells per diameter. `k`
 //!   adds an error of first order: it puts walls up to 0.07 cells into the fluid (`tests/oracle/tight_solids.rs`);
-//!   `golden/tradeoff/operators.csv` has other arrays, grids and Reynolds numbers.
+//!   `golden/tradeoff/operators.csv` and `golden/operators` have other arrays, grids and Reynolds numbers.
+//!
+//! What it is not good for: cut cells hold the fluid by their viscosity alone. Where it crosses a cell fast, `U dx/ν` above
+//! about 2, they let it in: in a dense bed of 10 cells per diameter at Re = 130 the drag is 10 % too small. And a cell that a
+//! moving grain has just filled keeps the fluid's momentum relative to it, which goes to and fro from step to step: the force
+//! on a towed grain has noise of about 1 % (`golden/operators`).
 
 use std::sync::LazyLock;
 

@@ -34,6 +34,7 @@ const STREAMS: [(f64, f64); 7] = [
 /// In the paper's box.
 const PAPER: Stream = Stream {
     collision: Preset::DHumieres,
+    operator: "bounce_back",
     reynolds: 0.1,
     cells: 6,
     tau: 0.7,

@@ -10,6 +10,7 @@ use psmrt::command::say::{say, tell};
 use psmrt::quote;
 use psmrt_validation::command::coefficients::{self, CoefficientsRequest};
 use psmrt_validation::command::golden::{self, GoldenCommand};
+use psmrt_validation::command::operators::{self, OperatorsRequest};
 use psmrt_validation::command::report;
 use psmrt_validation::command::report_request::ReportRequest;
 use psmrt_validation::command::speed::{self, SpeedRequest};
@@ -68,6 +69,15 @@ Examples:
   cargo validate tradeoff --out golden/tradeoff"
     )]
     Tradeoff(TradeoffRequest),
+    /// Compares the operators of the solid where flow is not creeping or grains move
+    #[command(
+        after_help = "Rows are added to the tables as they are made; runs that have one are left out.
+
+Examples:
+  cargo validate operators stream
+  cargo validate operators --out golden/operators"
+    )]
+    Operators(OperatorsRequest),
     /// Fits the error models and takes the limits anew that `psmrt check` and `psmrt plan` predict by
     #[command(after_help = "Example:\n  cargo validate coefficients && git diff src/advice")]
     Coefficients(CoefficientsRequest),
@@ -84,6 +94,7 @@ fn main() -> ExitCode {
         Command::Report(request) => report::report(&request, json),
         Command::Golden { command } => golden::golden(&command),
         Command::Stability(request) => stability::stability(&request),
+        Command::Operators(request) => operators::operators(&request),
         Command::Tradeoff(request) => tradeoff::tradeoff(&request, json),
         Command::Coefficients(request) => coefficients::make(&request, json),
         Command::Speed(request) => speed::speed(&request),

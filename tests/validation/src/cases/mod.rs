@@ -14,6 +14,7 @@ mod duct;
 mod found;
 mod kernel_parity;
 mod kernel_speed;
+pub mod operators;
 mod poiseuille;
 mod seepage;
 mod sphere_arrays;
@@ -98,6 +99,7 @@ pub const CASES: &[Case] = &[
     cloud_settling::CASE,
     conformance::CASE,
     tradeoff::CASE,
+    operators::CASE,
     kernel_parity::CASE,
     kernel_speed::CASE,
     stability::CASE,

@@ -3,6 +3,7 @@
 pub mod coefficients;
 mod environment;
 pub mod golden;
+pub mod operators;
 pub mod report;
 mod report_files;
 pub mod report_request;

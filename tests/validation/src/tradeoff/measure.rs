@@ -32,13 +32,7 @@ impl Runner {
     /// With the files of the folder `golden`, and the kernel on the device `gpu` if there is one.
     pub fn new(golden: &Path, gpu: Option<Arc<Gpu>>) -> Result<Self, CaseError> {
         let oracle = Bench::new(golden, EngineName::Reference, None, |_| {});
-        let literature = Literature {
-            arrays: oracle.literature("sphere_arrays", "literature.csv")?,
-            shafts: oracle.literature("stokes_settling", "literature.csv")?,
-            ducts: oracle.literature("tradeoff", "literature.csv")?,
-            random: oracle.literature("tradeoff", "random.csv")?,
-            random_drag: oracle.literature("tradeoff", "random_drag.csv")?,
-        };
+        let literature = Literature::of(&oracle)?;
         let kernel = gpu.map(|gpu| Bench::new(golden, EngineName::Wgpu, Some(gpu), |_| {}));
         let cpu = Bench::new(golden, EngineName::Cpu, None, |_| {});
         Ok(Runner { oracle, cpu, kernel, literature, machine: super::machine_words() })

@@ -117,6 +117,11 @@ fn committed_sweep_of_speed_and_accuracy_holds_its_claims() {
 }
 
 #[test]
+fn committed_comparison_of_operators_holds_its_claims() {
+    holds("operators", &mut Budget::kernel(0));
+}
+
+#[test]
 fn committed_confusion_table_holds_its_claims() {
     holds("conformance", &mut Budget::kernel(0));
 }
@@ -142,9 +147,10 @@ fn committed_costs_hold_their_claims() {
 }
 
 /// Cases that run no scene of their own, and why not: they judge rows that another command has made.
-const WITHOUT_SCENES: [(&str, &str); 6] = [
+const WITHOUT_SCENES: [(&str, &str); 7] = [
     ("conformance", "it judges programs that make planted mistakes"),
     ("tradeoff", "its sweep runs its scenes with every setting, for hours"),
+    ("operators", "its runs take half an hour"),
     ("kernel_parity", "it compares two engines step by step"),
     ("kernel_speed", "it measures speeds of a machine"),
     ("stability", "its maps take thousands of runs, most of which are meant to break"),

@@ -77,7 +77,8 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     let mut table = Table::new(&Stream::COLUMNS);
     let more = if bench.is_full() { &FULL_RUNS[..] } else { &[] };
     for &(collision, reynolds, cells, tau) in RUNS.iter().chain(more) {
-        let stream = Stream { collision, reynolds, cells, tau, width: 5.0, tolerance: 3e-4 };
+        let (operator, width, tolerance) = ("bounce_back", 5.0, 3e-4);
+        let stream = Stream { collision, operator, reynolds, cells, tau, width, tolerance };
         table.add(stream.row(bench)?);
     }
     Ok(table)

@@ -18,6 +18,8 @@ const SI_VISCOSITY: f64 = 1e-6;
 pub struct Stream {
     /// Collision: `mrt`, `srt` or `magic`.
     pub collision: Preset,
+    /// Collision in the sphere, as scenes spell it. Rows do not name it: a table with several has a column before.
+    pub operator: &'static str,
     /// Reynolds number `U d/nu`, with the velocity `U` of the inlet.
     pub reynolds: f64,
     /// Cells per diameter.
@@ -100,7 +102,7 @@ impl Stream {
     }
 
     fn changes(&self) -> Vec<String> {
-        let Stream { reynolds, cells, tau, width, tolerance, .. } = *self;
+        let Stream { reynolds, cells, tau, width, tolerance, operator, .. } = *self;
         let d = SI_DIAMETER;
         let velocity = format!("[0.0, {:e}, 0.0]", reynolds * SI_VISCOSITY / d);
         let rows = self.interval();
@@ -115,6 +117,7 @@ impl Stream {
             format!("records[1].every_steps={rows}"),
             format!("stop.steps={}", 150 * rows),
             format!("stop.steady.tolerance={tolerance:e}"),
+            format!("solid.operator=\"{operator}\""),
         ];
         changes.extend(preset_changes(self.collision));
         changes

@@ -44,9 +44,9 @@ pub(super) const EXPERIMENTS: [(&str, &str); 4] =
 pub(super) const OWN: &str = "E4";
 
 /// Diameter, m, and half the width and the height of the tank in diameters.
-const SI_DIAMETER: f64 = 0.015;
-const HALF_WIDTH: f64 = 50.0 / 15.0;
-const HEIGHT: f64 = 160.0 / 15.0;
+pub(super) const SI_DIAMETER: f64 = 0.015;
+pub(super) const HALF_WIDTH: f64 = 50.0 / 15.0;
+pub(super) const HEIGHT: f64 = 160.0 / 15.0;
 
 /// Gap over the diameter at which a fall has ended.
 const TOUCHES: f64 = 0.004;
