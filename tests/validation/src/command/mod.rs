@@ -3,7 +3,9 @@
 pub mod coefficients;
 mod environment;
 pub mod golden;
+pub mod history;
 pub mod report;
+mod report_claims;
 mod report_files;
 pub mod report_request;
 pub mod speed;
