@@ -33,7 +33,7 @@
 //! | `layout.rs`, `legend.rs`, `text.rs` | where things go |
 //! | `notes.rs` | the lines under a figure, with what the axes leave out |
 //! | `look.rs`, `palette.rs` | which colour, dash and marker a series gets |
-//! | `page.rs` | the validation report: verdicts, figures and tables as one HTML page |
+//! | `page/` | the validation report: headlines, figures, claims and tables as one HTML page |
 //! | `render.rs`, `marks.rs`, `clip.rs`, `canvas.rs`, `write.rs` | drawing, on plotters' SVG backend |
 //!
 //! Positions are ours and not those of plotters' `ChartBuilder`: without a font plotters guesses
@@ -68,7 +68,9 @@ pub use error::PlotError;
 pub use figure::{Axis, Figure, Panel};
 pub use fit::PowerLaw;
 pub use map::{Map, render_map};
-pub use page::{Appendix, DataTable, Link, Page, Section, Verdict, render_page};
+pub use page::{
+    Appendix, DataTable, Found, Headline, Link, Page, Picture, Section, Verdict, render_page,
+};
 pub use render::render_svg;
 pub use scale::Scale;
 pub use series::{Marker, Series, Style};

@@ -1,6 +1,9 @@
 //! The page: what a reader must find on it, on a screen, a phone and paper.
 
-use psmrt_report::{Axis, DataTable, Figure, Link, Page, Section, Series, Verdict, render_page};
+use psmrt_report::{
+    Axis, DataTable, Figure, Found, Headline, Link, Page, Picture, Section, Series, Verdict,
+    render_page,
+};
 
 fn link(text: &str, href: &str) -> Link {
     Link { text: text.to_owned(), href: href.to_owned() }
@@ -9,10 +12,14 @@ fn link(text: &str, href: &str) -> Link {
 fn verdict(holds: bool) -> Verdict {
     Verdict {
         claim: "order of the error".to_owned(),
-        measured: "1.97".to_owned(),
+        found: vec![Found {
+            by: "cpu".to_owned(),
+            measured: "1.97".to_owned(),
+            holds,
+            history: vec![1.9, 1.95, 1.97],
+        }],
         allowed: "1.8 to 2.1".to_owned(),
         why: "second order".to_owned(),
-        holds,
     }
 }
 
@@ -24,9 +31,9 @@ fn page() -> Page {
         sections: vec![Section {
             name: "duct".to_owned(),
             title: "Flow in a duct".to_owned(),
-            about: vec!["A <flow>.".to_owned()],
+            about: vec!["A <flow>.".to_owned(), "By a force.".to_owned()],
             verdicts: vec![verdict(true)],
-            figures: vec![figure],
+            figures: vec![figure.clone(), figure],
             tables: vec![DataTable {
                 caption: "What was measured".to_owned(),
                 columns: vec!["cells".to_owned()],
@@ -62,10 +69,69 @@ fn scenes_and_data_are_links_and_what_there_is_none_of_is_called_so() {
 fn a_page_needs_no_other_file_to_be_read() {
     let html = render_page(&page()).unwrap();
     assert!(html.contains("<svg") && html.contains("<style>"));
-    for needs in ["<img", "<script", "<link", "@import", "src=", "url("] {
+    // What it shows and runs is in it.
+    for needs in ["src=\"http", "src=\"/", "<script src", "<link", "@import", "url("] {
         assert!(!html.contains(needs), "{needs}");
     }
     assert!(html.contains("A &lt;flow&gt;."), "words are not obeyed as HTML");
+}
+
+#[test]
+fn a_page_opens_with_the_numbers_that_matter_and_a_picture() {
+    let mut page = page();
+    page.lead = "It is held to exact solutions.".to_owned();
+    page.headlines = vec![Headline {
+        quantity: "mean velocity".to_owned(),
+        reference: "0.0351".to_owned(),
+        source: "series".to_owned(),
+        found: "0.0350 (16 cells)".to_owned(),
+        error: "-0.05 %".to_owned(),
+        uncertainty: "0.06 %".to_owned(),
+        is_within: true,
+        case: "duct".to_owned(),
+    }];
+    page.picture = Some(Picture { png_base64: "AAAA".to_owned(), caption: "grains".to_owned() });
+    let html = render_page(&page).unwrap();
+    let place = |text: &str| html.find(text).unwrap_or_else(|| panic!("no {text}"));
+    let order = [
+        place("It is held to exact solutions."),
+        place("<a href=\"#duct\">mean velocity</a>"),
+        place("data:image/png;base64,AAAA"),
+        place("<nav>"),
+        place("<h2>Flow in a duct</h2>"),
+        place("id=\"verdicts\""),
+    ];
+    assert!(order.is_sorted(), "{order:?}");
+}
+
+#[test]
+fn a_case_shows_its_first_figure_and_folds_the_rest_unless_a_claim_fails() {
+    let mut page = page();
+    let html = render_page(&page).unwrap();
+    let section = &html[html.find("<section id=\"duct\">").unwrap()..];
+    assert!(
+        section.find("<svg").unwrap() < section.find("<details").unwrap(),
+        "the figure comes first"
+    );
+    assert!(section.contains("<details><summary>One more figure</summary>"));
+    assert!(
+        section.contains("<details><summary>1 of 1 claims hold"),
+        "claims that hold are folded"
+    );
+    page.sections[0].verdicts.push(verdict(false));
+    let html = render_page(&page).unwrap();
+    assert!(
+        html.contains("<details open><summary>1 of 2 claims hold"),
+        "a claim that fails is not"
+    );
+}
+
+#[test]
+fn every_claim_leads_to_its_reasons_and_has_its_history() {
+    let html = render_page(&page()).unwrap();
+    assert!(html.contains("<a href=\"#duct-1\">order of the error</a>"));
+    assert!(html.contains("<tr id=\"duct-1\">"));
+    assert!(html.contains("<title>3 reports, from 1.9000e0 to 1.9700e0</title>"));
 }
 
 #[test]
@@ -77,10 +143,10 @@ fn the_environment_is_a_table_whose_names_are_headings() {
 #[test]
 fn a_claim_that_fails_is_told_by_words_and_not_by_colour_alone() {
     let mut page = page();
-    assert!(page.holds() && render_page(&page).unwrap().contains("1 of 1 claims hold."));
+    assert!(page.holds() && render_page(&page).unwrap().contains("1 of 1 claims hold ("));
     page.sections[0].verdicts.push(verdict(false));
     let html = render_page(&page).unwrap();
-    assert!(!page.holds() && html.contains("✗ FAILS") && html.contains("1 of 2 claims hold."));
+    assert!(!page.holds() && html.contains("✗ FAILS") && html.contains("1 of 2 claims hold ("));
     page.sections[0].verdicts.clear();
     assert!(!page.holds(), "a case without a claim shows nothing");
 }
@@ -103,7 +169,7 @@ fn on_a_phone_claims_are_cards_whose_numbers_have_names() {
         // In both tables, of all claims and of the case.
         assert_eq!(html.matches(&format!("<td class=\"{name}\">")).count(), 2);
     }
-    assert_eq!(html.matches("<table class=\"claims\">").count(), 2);
+    assert_eq!(html.matches("<table class=\"claims\"").count(), 2);
 }
 
 #[test]

@@ -10,6 +10,7 @@ use psmrt::command::say::{say, tell};
 use psmrt::quote;
 use psmrt_validation::command::coefficients::{self, CoefficientsRequest};
 use psmrt_validation::command::golden::{self, GoldenCommand};
+use psmrt_validation::command::history::{self, HistoryRequest};
 use psmrt_validation::command::operators::{self, OperatorsRequest};
 use psmrt_validation::command::report;
 use psmrt_validation::command::report_request::ReportRequest;
@@ -50,6 +51,11 @@ enum Command {
         #[command(subcommand)]
         command: GoldenCommand,
     },
+    /// Lists what the committed reports have found, claim by claim
+    #[command(after_help = "Examples:
+  cargo validate history --case sphere_arrays
+  cargo validate history 'error of the mean'")]
+    History(HistoryRequest),
     /// Maps where the method is stable and where it is accurate
     #[command(
         after_help = "Goes on where it was cut off: runs that the records hold are not made again.
@@ -93,6 +99,7 @@ fn main() -> ExitCode {
     let done = match command {
         Command::Report(request) => report::report(&request, json),
         Command::Golden { command } => golden::golden(&command),
+        Command::History(request) => history::history(&request),
         Command::Stability(request) => stability::stability(&request),
         Command::Operators(request) => operators::operators(&request),
         Command::Tradeoff(request) => tradeoff::tradeoff(&request, json),

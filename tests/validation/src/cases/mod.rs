@@ -51,6 +51,7 @@ pub use found::drawn;
 pub use seepage::bed::{BedRun, Packing};
 pub use seepage::laws::{BED_LAWS, BedLaw};
 pub use sphere_drag::stream::Stream;
+pub use sphere_drag::study::{drag_by_grid, in_open_water};
 pub use steadiness::{Settled, steadiness};
 pub use study::Study;
 

@@ -3,8 +3,10 @@
 pub mod coefficients;
 mod environment;
 pub mod golden;
+pub mod history;
 pub mod operators;
 pub mod report;
+mod report_claims;
 mod report_files;
 pub mod report_request;
 pub mod speed;

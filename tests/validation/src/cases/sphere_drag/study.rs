@@ -128,6 +128,23 @@ pub fn grids(study: &Table, reynolds: &str, tau: &str) -> Result<Vec<(f64, f64)>
     curve(study, (reynolds, tau), ("width_d", "5"), "cells_per_diameter")
 }
 
+/// C_D against cells per diameter in the paper's box, at the relaxation time of all grids of a Reynolds number. Errors if
+/// there is no such number.
+pub fn drag_by_grid(study: &Table, reynolds: &str) -> Result<Vec<(f64, f64)>, CaseError> {
+    let of = TAUS.iter().find(|(re, _)| *re == reynolds);
+    let (_, tau) = of.ok_or_else(|| CaseError::table(format!("study.csv: no Re {reynolds}")))?;
+    grids(study, reynolds, tau)
+}
+
+/// C_D in open water where it is `drag` in the paper's box. Errors if the box was not varied at this Reynolds number.
+pub fn in_open_water(study: &Table, reynolds: &str, drag: f64) -> Result<f64, CaseError> {
+    let varied = VARIED.iter().find(|varied| varied.reynolds == reynolds);
+    let blockage = varied.map(|varied| varied.widths(study)).transpose()?;
+    let blockage = blockage.and_then(|widths| Blockage::of(&widths));
+    let missing = || CaseError::table(format!("study.csv: no widths at Re {reynolds}"));
+    Ok(blockage.ok_or_else(missing)?.taken_off(drag))
+}
+
 fn curve(
     study: &Table,
     (reynolds, tau): (&str, &str),

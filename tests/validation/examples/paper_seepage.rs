@@ -1,0 +1,184 @@
+//! The paper's section 6 at its own size: water through a bed of 1,000 spheres of 16 cells.
+//!
+//! Adds one row per run to `golden/seepage/paper_size.csv` as it goes; runs that have a row are left out, so that it can be
+//! cut off and started again. About two hours on two cores.
+//!
+//! ```text
+//! cargo run --release -p psmrt-validation --example paper_seepage
+//! ```
+
+use std::error::Error;
+use std::f64::consts::PI;
+use std::path::Path;
+
+use psmrt::engine::EngineName;
+use psmrt::run::{End, RunError};
+use psmrt::scene::preset_changes;
+use psmrt_reference::collision::Preset;
+use psmrt_validation::cases::{BED_LAWS, Bench, CaseError, Study};
+
+const TABLE: &str = "golden/seepage/paper_size.csv";
+
+/// Diameter, m, and viscosity, m2/s, of the scene, its cells per diameter, and the solid fraction that `Re_wanted` is for.
+const SI_DIAMETER: f64 = 1.6e-4;
+const SI_VISCOSITY: f64 = 1e-6;
+const CELLS: f64 = 16.0;
+const FRACTION: f64 = 0.566;
+
+/// Reynolds numbers, each with the relaxation time at which the pressure under the bed is that of 0.5 to 1 % of the density.
+const STREAMS: [(f64, f64); 8] = [
+    (10.0, 0.51),
+    (1.0, 0.53),
+    (2.0, 0.52),
+    (30.0, 0.505),
+    (0.1, 0.6),
+    (5.0, 0.51),
+    (0.3, 0.55),
+    (20.0, 0.505),
+];
+
+/// Reynolds numbers of which only the end is asked for: whether the flow lives.
+const LIVES: [(f64, f64); 3] = [(30.0, 0.505), (10.0, 0.51), (2.0, 0.52)];
+
+/// How solids act on the fluid: operator and, where it has no weight of its own, weighting.
+type Solids = (&'static str, Option<&'static str>);
+
+const PAPER: Solids = ("bounce_back", Some("noble_torczynski"));
+const FRACTION_WEIGHT: Solids = ("bounce_back", Some("solid_fraction"));
+const GRADED: Solids = ("graded_viscosity", None);
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut bench = Bench::new(Path::new("golden"), EngineName::CpuSingle, None, |_| {});
+    let families: [(Preset, Solids, &[(f64, f64)]); 5] = [
+        (Preset::DHumieres, PAPER, &STREAMS),
+        (Preset::DHumieres, GRADED, &STREAMS),
+        (Preset::Srt, PAPER, &STREAMS),
+        (Preset::DHumieres, FRACTION_WEIGHT, &LIVES),
+        (Preset::Srt, FRACTION_WEIGHT, &LIVES),
+    ];
+    for (collision, solids, streams) in families {
+        for &(reynolds, tau) in streams {
+            add(&mut bench, collision, solids, reynolds, tau)?;
+        }
+    }
+    Ok(())
+}
+
+fn add(
+    bench: &mut Bench,
+    collision: Preset,
+    (operator, weighting): Solids,
+    reynolds: f64,
+    tau: f64,
+) -> Result<(), Box<dyn Error>> {
+    let mut row = format!(
+        "{},{},{},{operator},{tau},{reynolds},",
+        bench.engine_name().word(),
+        collision.word(),
+        weighting.unwrap_or("own")
+    );
+    let study = Study::new(TABLE);
+    if study.row(&row)?.is_some() {
+        return Ok(());
+    }
+    let nu = (tau - 0.5) / 3.0;
+    let velocity = reynolds * SI_VISCOSITY * FRACTION / SI_DIAMETER;
+    let vector = format!("[0.0, 0.0, {velocity:e}]");
+    // A quarter of the time in which a disturbance as long as a sphere is wide dies down by a factor of e.
+    let interval = (0.25 * CELLS * CELLS / (4.0 * PI * PI * nu)).ceil();
+    let mut changes = vec![
+        format!("time.tau={tau}"),
+        format!("faces.z_low.velocity={vector}"),
+        format!("initial.velocity={vector}"),
+        format!("solid.operator=\"{operator}\""),
+        format!("records[0].every_steps={interval}"),
+        format!("records[1].every_steps={interval}"),
+        format!("stop.steps={}", 60.0 * interval),
+    ];
+    changes.extend(weighting.map(|word| format!("solid.weighting=\"{word}\"")));
+    changes.extend(preset_changes(collision));
+    let before = bench.cell_updates();
+    row += &match bench.run("seepage/paper.toml", &changes) {
+        Err(CaseError::Run(RunError::Stopped(why))) => {
+            format!("{}{}", why.to_string().replace(',', ";"), ",0".repeat(13))
+        }
+        Err(error) => return Err(error.into()),
+        Ok((run, end)) => {
+            let loads = run.record("loads")?;
+            let last = loads.values("step")?.pop().ok_or("no loads")?;
+            let loads = loads.with(&[("step", &last)])?;
+            let core = Core::of(
+                &loads.numbers("z (m)")?,
+                &loads.numbers("force_z (N)")?,
+                run.scene.setup.domain.cells().map(|n| n as f64 * run.scene.units.si_dx),
+            );
+            let means = run.engine.box_means();
+            let density = 1000.0 * means.density;
+            let (phi, d) = (core.fraction, SI_DIAMETER);
+            let re = velocity * d / (SI_VISCOSITY * phi);
+            // psi = (dP/L) d ε³/(ρ U² (1 - ε)), the force of the fluid on the bed being the pressure gradient's
+            let gradient = core.force * phi / (PI / 6.0 * d.powi(3));
+            let psi = gradient * d * (1.0 - phi).powi(3) / (density * velocity * velocity * phi);
+            let [beetstra, tang] =
+                [3, 4].map(|law: usize| psi * re / (BED_LAWS[law].psi_re)(phi, re));
+            let outcome = match end {
+                End::Steady { .. } => "steady".to_owned(),
+                End::NotSteady { left: Some(left) } => format!("not steady; {left:.0e} left"),
+                _ => "not steady".to_owned(),
+            };
+            format!(
+                "{outcome},{re:.4},{psi:.5},{:.3},{beetstra:.4},{tang:.4},{},{phi:.5},{:.2},{:.4},{:.5},{},{},{:.1e}",
+                psi * re,
+                core.spheres,
+                density,
+                means.max_speed,
+                reynolds * nu * FRACTION / CELLS,
+                run.engine.steps(),
+                bench.cell_updates() - before,
+                // Of the density of the water in the domain, over the reference one.
+                means.density - 1.0,
+            )
+        }
+    };
+    study.add(&row)?;
+    Ok(())
+}
+
+/// The spheres of the bed that its ends do not touch.
+struct Core {
+    spheres: usize,
+    /// Solid fraction between the planes that bound it.
+    fraction: f64,
+    /// Mean force on a sphere, N.
+    force: f64,
+}
+
+impl Core {
+    /// Those whose centres are at least 1.5 diameters above the lowest centre and 2 below the highest.
+    fn of(heights: &[f64], forces: &[f64], [x, y, _]: [f64; 3]) -> Self {
+        let d = SI_DIAMETER;
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min) + 1.5 * d;
+        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - 2.0 * d;
+        let inside: Vec<f64> = heights
+            .iter()
+            .zip(forces)
+            .filter(|(z, _)| (low..=high).contains(*z))
+            .map(|(_, force)| *force)
+            .collect();
+        let volume: f64 =
+            heights.iter().map(|z| volume_below(high - z) - volume_below(low - z)).sum();
+        Core {
+            spheres: inside.len(),
+            fraction: volume / (x * y * (high - low)),
+            force: inside.iter().sum::<f64>() / inside.len() as f64,
+        }
+    }
+}
+
+/// Volume of a sphere below a plane at height `h` above its centre.
+fn volume_below(h: f64) -> f64 {
+    let r = 0.5 * SI_DIAMETER;
+    let h = h.clamp(-r, r);
+    // π ∫ (r² - z²) dz from -r to h
+    PI * (r * r * (h + r) - (h.powi(3) + r.powi(3)) / 3.0)
+}
