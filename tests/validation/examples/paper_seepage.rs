@@ -9,6 +9,7 @@
 
 use std::error::Error;
 use std::f64::consts::PI;
+use std::fs;
 use std::path::Path;
 
 use psmrt::engine::EngineName;
@@ -18,6 +19,19 @@ use psmrt_reference::collision::Preset;
 use psmrt_validation::cases::{BED_LAWS, Bench, CaseError, Study};
 
 const TABLE: &str = "golden/seepage/paper_size.csv";
+
+/// What stands at the head of the table when it is begun.
+const HEAD: &str = "\
+# Seepage through the bed of the paper's section 6 at its own size, 1,000 spheres of 16 cells under a velocity inlet with free
+# outflow: cargo run --release -p psmrt-validation --example paper_seepage
+# paper.toml with other values, on the CPU engine in single precision. core: the spheres whose centres are at least 1.5 diameters above the lowest
+# and 2 below the highest centre; core_solid_fraction by the volumes of the spheres between these planes. psi =
+# F phi/V d eps3/(rho U2 (1 - eps)), F the mean force on a sphere of the core, V its volume, phi = 1 - eps, rho the mean density;
+# Re = U d/(nu phi), U of the inlet; Re_wanted: with phi = 0.566. density: mean of the domain, kg/m3; max_speed: cells
+# per step; density_change: mean density over the reference one, less 1. outcome: steady (the force on all grains within 1e-3 of
+# its final value by the scene's criterion), not steady after 15 viscous times d2/(4 pi2 nu), or the guard's words.
+engine,collision,weighting,operator,tau,Re_wanted,outcome,Re,psi,psi_Re,over_Beetstra,over_Tang,core_spheres,core_solid_fraction,density,max_speed,lattice_velocity,steps,cell_updates,density_change
+";
 
 /// Diameter, m, and viscosity, m2/s, of the scene, its cells per diameter, and the solid fraction that `Re_wanted` is for.
 const SI_DIAMETER: f64 = 1.6e-4;
@@ -48,6 +62,9 @@ const FRACTION_WEIGHT: Solids = ("bounce_back", Some("solid_fraction"));
 const GRADED: Solids = ("graded_viscosity", None);
 
 fn main() -> Result<(), Box<dyn Error>> {
+    if !Path::new(TABLE).exists() {
+        fs::write(TABLE, HEAD)?;
+    }
     let mut bench = Bench::new(Path::new("golden"), EngineName::CpuSingle, None, |_| {});
     let families: [(Preset, Solids, &[(f64, f64)]); 5] = [
         (Preset::DHumieres, PAPER, &STREAMS),
