@@ -198,13 +198,8 @@ fn of_motion(towed: &Table) -> Result<Figure, CaseError> {
         Axis::log("root mean square over the mean"),
     )
     .size(800, 500);
-    for (number, (way, what)) in [
-        ("axis", "force, along an axis"),
-        ("diagonal", "force, along x = y"),
-        ("free", "velocity, free"),
-    ]
-    .into_iter()
-    .enumerate()
+    for (number, (way, what)) in
+        [("axis", "force, along an axis"), ("free", "velocity, free")].into_iter().enumerate()
     {
         for operator in OPERATORS {
             let own =
@@ -231,5 +226,5 @@ fn of_falls(falls: &Table) -> Result<Figure, CaseError> {
             figure = with(figure, operator, &format!("{case}, tau {tau}"), number, points);
         }
     }
-    Ok(zero(figure, 6.0, 12.0))
+    Ok(zero(figure, 6.0, 8.0))
 }

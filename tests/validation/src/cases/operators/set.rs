@@ -5,14 +5,17 @@ use std::path::Path;
 
 use crate::cases::CaseError;
 
+/// Makes runs: the folder `golden`, the file that they are added to, who is told of each row.
+pub type Make = fn(&Path, &Path, &dyn Fn(&str)) -> Result<(), CaseError>;
+
 /// A table of runs.
 pub struct Set {
     /// Its name, and that of its file.
     pub name: &'static str,
     /// What it holds, for the head of its file: a line each.
     pub about: &'static [&'static str],
-    /// Makes the runs that the file lacks: the folder `golden`, the file, who is told of each row.
-    pub make: fn(&Path, &Path, &dyn Fn(&str)) -> Result<(), CaseError>,
+    /// Makes the runs that the file lacks.
+    pub make: Make,
 }
 
 impl Set {

@@ -111,7 +111,7 @@ fn runs() -> Vec<(Way, &'static str, u32, f64)> {
     };
     add(Way::Axis, &OPERATORS, &[6, 8, 12], &[0.55, 0.6, 0.8, 1.0, 1.5]);
     add(Way::Free, &[BOUNCE_BACK, FULL], &[4, 6, 8], &[0.55, 0.6, 0.8, 1.0]);
-    add(Way::Diagonal, &OPERATORS, &[6, 8], &[0.6, 0.8, 1.0]);
+    add(Way::Diagonal, &OPERATORS, &[6], &[0.6, 0.8, 1.0]);
     runs
 }
 
