@@ -50,7 +50,15 @@ fn main() -> Result<(), Box<dyn Error>> {
             let Some(&tau) = taus.get(number) else { continue };
             for collision in [Preset::DHumieres, Preset::Srt] {
                 let stream =
-                    Stream { collision, reynolds, cells: 30, tau, width: 5.0, tolerance: 1e-4 };
+                    Stream {
+                    operator: "bounce_back",
+                    collision,
+                    reynolds,
+                    cells: 30,
+                    tau,
+                    width: 5.0,
+                    tolerance: 1e-4,
+                };
                 let start = stream.start(bench.engine_name().word()).join(",") + ",";
                 if study.row(&start)?.is_none() {
                     study.add(&stream.row(&mut bench)?.join(","))?;

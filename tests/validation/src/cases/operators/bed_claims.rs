@@ -10,19 +10,19 @@ use crate::cases::{CaseError, Claim};
 use crate::tradeoff::operators::drag_error;
 use crate::tradeoff::row::Row;
 
-/// What graded viscosity may be worse by than the default.
+/// What graded viscosity may be worse by than the paper's operator.
 pub const TAIL: f64 = 0.015;
 
 /// Why.
 pub const TAIL_WHY: &str = "its drag in cut cells adds an error of first order, 1 to 1.5 % of the drag in creeping flow \
-                        (golden/tradeoff/operators.csv); where the default's own error happens to be small it may be worse by that";
+                        (golden/tradeoff/operators.csv); where the paper's own error happens to be small it may be worse by that";
 
 /// The largest of some values; NaN of none.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(f64::NAN, f64::max)
 }
 
-/// A run of graded viscosity in a bed: cells per diameter, `U dx/nu`, the size of its error and of the default's.
+/// A run of graded viscosity in a bed: cells per diameter, `U dx/nu`, the size of its error and of that with the paper's operator.
 struct Pair {
     reynolds: f64,
     of_cell: f64,
@@ -66,7 +66,7 @@ pub fn of_beds(rows: &[Row]) -> Vec<Claim> {
         Claim {
             what: format!(
                 "beds at Re 1 to 130, runs of graded viscosity with U dx/nu up to {SLOW} ({}): size of the drag's error less \
-                 that with the default, at most",
+                 that with the paper's, at most",
                 slow().count()
             ),
             measured: largest(slow().map(|pair| pair.graded - pair.usual)),
@@ -85,7 +85,7 @@ pub fn of_beds(rows: &[Row]) -> Vec<Claim> {
     ]
 }
 
-/// Relaxation times at which graded viscosity bears as much as the default.
+/// Relaxation times at which graded viscosity bears as much as the paper's operator.
 const BORNE: f64 = 0.505;
 
 /// How fast the flow may be.
@@ -105,7 +105,7 @@ pub fn of_limits(rows: &[Row]) -> Claim {
     Claim {
         what: format!(
             "face-centred cubic at 0.6, a force that rises by half each time, tau {BORNE} to 0.55: largest velocity that graded \
-             viscosity survives over that of the default, least"
+             viscosity survives over that of the paper's, least"
         ),
         measured: ratios.fold(f64::INFINITY, f64::min),
         allowed: 0.65..=1.5,
@@ -144,10 +144,10 @@ pub fn of_arrays(rows: &[Row]) -> Result<Vec<Claim>, CaseError> {
             what: "the same of FCC at 0.7, where spheres nearly touch".to_owned(),
             measured: largest(graded().filter(in_densest).filter_map(size)),
             allowed: 0.0..=0.12,
-            why: "a finding, no aim: the gaps at 11 cells per diameter have less than a cell. The default is 32 to 65 % off",
+            why: "a finding, no aim: the gaps at 11 cells per diameter have less than a cell. The paper's operator is 32 to 65 % off",
         },
         Claim {
-            what: "all of these: size of the drag's error with graded viscosity less that with the default, at most".to_owned(),
+            what: "all of these: size of the drag's error with graded viscosity less that with the paper's, at most".to_owned(),
             measured: largest(worse),
             allowed: -1.0..=TAIL,
             why: TAIL_WHY,
@@ -166,7 +166,7 @@ pub fn of_arrays(rows: &[Row]) -> Result<Vec<Claim>, CaseError> {
         };
         let name = format!("creeping flow, {} {geometry}, tau 1", flow.word().to_uppercase());
         claims.push(Claim {
-            what: format!("{name}, 16 to 48 cells along the edge: order of the velocity's error with the default"),
+            what: format!("{name}, 16 to 48 cells along the edge: order of the velocity's error with the paper's"),
             measured: order(BOUNCE_BACK, 16)?,
             allowed: 1.7..=2.5,
             why: "second order, by the leak (tests/oracle/sphere_arrays.rs, 0.3 either way as there); walls that lie 0.012 of a \

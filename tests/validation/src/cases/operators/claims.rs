@@ -41,7 +41,7 @@ fn of_the_stream(stream: &Table, known: &[(f64, f64, f64)]) -> Result<Vec<Claim>
     let mut claims = vec![
         Claim {
             what: "a sphere in a stream, Re 0.1, 1, 10 and 100, 6 and 8 cells: size of the drag's error with graded viscosity \
-                   less that with the default, at most"
+                   less that with the paper's, at most"
                 .to_owned(),
             measured: largest(worse),
             allowed: -1.0..=TAIL,
@@ -143,13 +143,13 @@ fn of_falls(falls: &Table) -> Result<Vec<Claim>, CaseError> {
         (
             "E1",
             -0.056,
-            "as of the default (case ten_cate): ten Cate's own computation is 5.6 % below the measured one",
+            "as of the paper's (case ten_cate): ten Cate's own computation is 5.6 % below the measured one",
         ),
         (
             "E4",
             -0.05,
-            "0.03 as of the default (case ten_cate), and 0.02 below: the drag of a sphere of 8 cells in a stream of Re 30 is 3 % \
-             larger than with the default, its walls lie up to 0.16 of a cell in the fluid (golden/ps_channel_wall)",
+            "0.03 as of the paper's (case ten_cate), and 0.02 below: the drag of a sphere of 8 cells in a stream of Re 30 is 3 % \
+             larger than with the paper's, its walls lie up to 0.16 of a cell in the fluid (golden/ps_channel_wall)",
         ),
     ] {
         let own = falls.with(&[("case", case), ("operator", FULL)])?;

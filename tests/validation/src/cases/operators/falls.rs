@@ -1,4 +1,4 @@
-//! Ten Cate's settling sphere with the implicit coupling of full bounce-back, beside the default.
+//! Ten Cate's settling sphere with the implicit coupling of full bounce-back, beside the paper's operator.
 
 use std::path::Path;
 
