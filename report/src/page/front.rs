@@ -78,8 +78,11 @@ fn headlines(headlines: &[Headline]) -> Markup {
             tbody {
                 @for one in headlines {
                     tr {
-                        td { a href=(format!("#{}", one.case)) { (one.quantity) } }
-                        td { span class="number" { (one.reference) } " " span class="source" { (one.source) } }
+                        td class="quantity" {
+                            a href=(format!("#{}", one.case)) { (one.quantity) }
+                            " " span class="source" { "Reference: " (one.source) "." }
+                        }
+                        td class="number" { (one.reference) }
                         td class="number" { (one.found) }
                         td class="number" { (one.error) }
                         td class="number" { (one.uncertainty) }

@@ -49,8 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (reynolds, taus) in STREAMS {
             let Some(&tau) = taus.get(number) else { continue };
             for collision in [Preset::DHumieres, Preset::Srt] {
-                let stream =
-                    Stream {
+                let stream = Stream {
                     operator: "bounce_back",
                     collision,
                     reynolds,
