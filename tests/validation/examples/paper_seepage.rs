@@ -66,17 +66,21 @@ fn main() -> Result<(), Box<dyn Error>> {
         fs::write(TABLE, HEAD)?;
     }
     let mut bench = Bench::new(Path::new("golden"), EngineName::CpuSingle, None, |_| {});
-    let families: [(Preset, Solids, &[(f64, f64)]); 5] = [
-        (Preset::DHumieres, PAPER, &STREAMS),
-        (Preset::DHumieres, GRADED, &STREAMS),
-        (Preset::Srt, PAPER, &STREAMS),
-        (Preset::DHumieres, FRACTION_WEIGHT, &LIVES),
-        (Preset::Srt, FRACTION_WEIGHT, &LIVES),
-    ];
-    for (collision, solids, streams) in families {
-        for &(reynolds, tau) in streams {
-            add(&mut bench, collision, solids, reynolds, tau)?;
-        }
+    add_all(&mut bench, Preset::DHumieres, PAPER, &STREAMS)?;
+    add_all(&mut bench, Preset::DHumieres, GRADED, &STREAMS)?;
+    add_all(&mut bench, Preset::Srt, PAPER, &STREAMS)?;
+    add_all(&mut bench, Preset::DHumieres, FRACTION_WEIGHT, &LIVES)?;
+    add_all(&mut bench, Preset::Srt, FRACTION_WEIGHT, &LIVES)
+}
+
+fn add_all(
+    bench: &mut Bench,
+    collision: Preset,
+    solids: Solids,
+    streams: &[(f64, f64)],
+) -> Result<(), Box<dyn Error>> {
+    for &(reynolds, tau) in streams {
+        add(bench, collision, solids, reynolds, tau)?;
     }
     Ok(())
 }
