@@ -9,6 +9,7 @@ mod bench;
 mod cloud_settling;
 mod conformance;
 mod cost;
+mod cpu_speed;
 mod drift;
 mod duct;
 mod found;
@@ -103,6 +104,7 @@ pub const CASES: &[Case] = &[
     operators::CASE,
     kernel_parity::CASE,
     kernel_speed::CASE,
+    cpu_speed::CASE,
     stability::CASE,
     cost::CASE,
 ];

@@ -137,6 +137,11 @@ fn committed_speeds_of_the_kernel_are_above_the_oracles() {
 }
 
 #[test]
+fn committed_speeds_of_the_cpu_engine_stand_beside_generated_code() {
+    holds("cpu_speed", &mut Budget::kernel(0));
+}
+
+#[test]
 fn committed_maps_of_stability_hold_their_claims() {
     holds("stability", &mut Budget::kernel(0));
 }
@@ -153,6 +158,7 @@ const WITHOUT_SCENES: [(&str, &str); 7] = [
     ("operators", "its runs take half an hour"),
     ("kernel_parity", "it compares two engines step by step"),
     ("kernel_speed", "it measures speeds of a machine"),
+    ("cpu_speed", "it measures speeds of a machine"),
     ("stability", "its maps take thousands of runs, most of which are meant to break"),
     ("cost", "it measures times of a machine"),
 ];
