@@ -152,7 +152,7 @@ fn committed_costs_hold_their_claims() {
 }
 
 /// Cases that run no scene of their own, and why not: they judge rows that another command has made.
-const WITHOUT_SCENES: [(&str, &str); 7] = [
+const WITHOUT_SCENES: [(&str, &str); 8] = [
     ("conformance", "it judges programs that make planted mistakes"),
     ("tradeoff", "its sweep runs its scenes with every setting, for hours"),
     ("operators", "its runs take half an hour"),
