@@ -113,14 +113,12 @@ fn lines(engine: EngineName) -> Vec<Line> {
             all.extend(TAUS.map(|tau| Line { engine, model, weighting, variant: "", tau }));
         }
     }
-    // B = epsilon is no default: the paper's two collisions, at fewer relaxation times. Graded viscosity is made for
-    // d'Humieres' rates.
+    // B = epsilon is no default: the paper's two collisions, at fewer relaxation times.
     all.retain(|line| match line.weighting {
-        Some(Weighting::Graded) => line.model == Preset::DHumieres,
         Some(Weighting::SolidFraction) => {
             line.model != Preset::Trt && ![0.500_01, 0.55, 0.8, 2.0].contains(&line.tau)
         }
-        Some(Weighting::NobleTorczynski) | None => true,
+        Some(Weighting::NobleTorczynski | Weighting::Graded) | None => true,
     });
     all
 }
