@@ -20,6 +20,7 @@ use crate::implicit;
 use crate::parity::{
     CELLS, G, Rounding, gauge, given_fractions, mixed_faces, random_state, waves, weight_error,
 };
+use crate::scenes::scene;
 use crate::trials::{Claim, EngineClaim, device_of};
 use psmrt::engine::{Block, CpuEngine, EngineName, FluidEngine, KernelEngine, Start, open};
 use psmrt::kernel::Gpu;
@@ -244,7 +245,7 @@ fn held_in_motion(name: EngineName, gpu: Option<&Arc<Gpu>>, steps: u64) {
 
 fn kernel_moves_grains_as_the_oracle_does() {
     let mut budget = Budget::kernel(214_000);
-    let setup = implicit::scene(implicit::CLOSED).setup;
+    let setup = scene(&implicit::CLOSED).setup;
     // As the CPU engine in single precision (tests/suite/implicit_coupling.rs): populations less their weights are up to
     // 0.03, and a grain makes ten times their rounding. The weights of cut cells are δB off besides, which changes a
     // population by twice that part of what it is.
@@ -265,7 +266,7 @@ fn profile_shows_the_grips_where_an_operator_asks_for_them_and_only_there() {
     let mut budget = Budget::kernel(16_000);
     let gpu = device_of(EngineName::Wgpu);
     for (operator, asks) in [("full_bounce_back", true), ("bounce_back", false)] {
-        let scene = implicit::scene(&implicit::CLOSED.replace("full_bounce_back", operator));
+        let scene = scene(&implicit::CLOSED.replace("full_bounce_back", operator));
         let mut engine = open(EngineName::Wgpu, &scene, gpu.as_ref(), true).unwrap();
         budget.spend(2 * scene.setup.domain.cell_count() as u64);
         engine.step(2).unwrap();

@@ -1,7 +1,8 @@
 //! Free grains under full bounce-back: the CPU engine against the oracle, saved states, and what does not go with it.
 
 use crate::common::Budget;
-use crate::implicit::{self, CLOSED, STEPS, read, scene};
+use crate::implicit::{self, CLOSED, STEPS};
+use crate::scenes::{read, scene};
 use psmrt::engine::EngineName;
 
 #[test]
@@ -31,12 +32,12 @@ fn engines_go_on_bit_for_bit_from_what_they_saved_during_contacts() {
 #[test]
 fn averaged_loads_are_refused_with_a_way_out() {
     let averaged = CLOSED.replace("[engine]", "[coupling]\naverage_loads = true\n[engine]");
-    let message = read(&averaged).unwrap_err().to_string();
+    let message = read(&averaged).unwrap_err();
     for word in ["coupling.average_loads", "full_bounce_back", "remove the key"] {
         assert!(message.contains(word), "{word} is missing: {message}");
     }
     // The way out.
     scene(&averaged.replace("\"full_bounce_back\"", "\"bounce_back\""));
     let graded = read(&CLOSED.replace("\"full_bounce_back\"", "\"graded_viscosity\"")).unwrap_err();
-    assert!(graded.to_string().contains("solid.operator"), "{graded}");
+    assert!(graded.contains("solid.operator"), "{graded}");
 }
