@@ -75,6 +75,9 @@ pub trait Lanes:
 
     /// The larger number of each lane.
     fn max(self, other: Self) -> Self;
+
+    /// `yes` where `self <= limit`, else `no`.
+    fn at_most(self, limit: Self, yes: Self, no: Self) -> Self;
 }
 
 /// Writes out one precision: pulp's functions bear it in their names.
@@ -82,7 +85,7 @@ macro_rules! lanes {
     (
         $name:ident, $real:ty, $raw:ident, $precision:literal, $splat:ident, $split:ident, $split_mut:ident,
         $load_some:ident, $store_some:ident, $add:ident, $sub:ident, $mul:ident, $neg:ident, $div:ident,
-        $mul_add:ident, $sqrt:ident, $min:ident, $max:ident
+        $mul_add:ident, $sqrt:ident, $min:ident, $max:ident, $at_most:ident, $select:ident
     ) => {
         /// A vector of numbers of one precision.
         #[derive(Clone, Copy)]
@@ -189,6 +192,12 @@ macro_rules! lanes {
             fn max(self, other: Self) -> Self {
                 Self { raw: self.token.$max(self.raw, other.raw), ..self }
             }
+
+            #[inline(always)]
+            fn at_most(self, limit: Self, yes: Self, no: Self) -> Self {
+                let mask = self.token.$at_most(self.raw, limit.raw);
+                Self { raw: self.token.$select(mask, yes.raw, no.raw), ..self }
+            }
         }
 
         impl Real for $real {
@@ -228,7 +237,9 @@ lanes!(
     mul_add_f32s,
     sqrt_f32s,
     min_f32s,
-    max_f32s
+    max_f32s,
+    less_than_or_equal_f32s,
+    select_f32s
 );
 lanes!(
     Doubles,
@@ -248,5 +259,7 @@ lanes!(
     mul_add_f64s,
     sqrt_f64s,
     min_f64s,
-    max_f64s
+    max_f64s,
+    less_than_or_equal_f64s,
+    select_f64s
 );

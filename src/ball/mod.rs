@@ -2,11 +2,13 @@
 //!
 //! | file | rule |
 //! |---|---|
-//! | `exact.rs` | in closed form |
+//! | `exact.rs` | in closed form, of one cell |
+//! | `exact_rows.rs` | in closed form, of whole rows |
 //! | `sampled.rs` | by sample points |
 //! | `linear.rs` | linear in the distance of the centres |
 
 mod exact;
+mod exact_rows;
 mod linear;
 mod sampled;
 
@@ -57,7 +59,7 @@ pub fn rows_of_fractions(
         return;
     }
     match rule {
-        CoverageRule::Exact => exact::rows(centre, radius, cells, tell),
+        CoverageRule::Exact => exact_rows::rows(centre, radius, cells, tell),
         CoverageRule::Sampled { n } => sampled::rows(centre, radius, n, cells, tell),
         CoverageRule::Linear => linear::rows(centre, radius, cells, tell),
     }
