@@ -16,7 +16,7 @@ use crate::advice::estimate::{Warning, disk, operator, warnings};
 use crate::checkpoint::Progress;
 use crate::engine::Coupled;
 use crate::output::folder::RunFolder;
-use crate::output::{atomic, csv, grain_plots, plot};
+use crate::output::{atomic, bed_plots, csv, grain_plots, plot};
 use crate::run::{End, run as run_scene};
 use crate::scene::names;
 use crate::scene::{Scene, What};
@@ -141,7 +141,13 @@ fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
                 What::Profile { axis, .. } => Some(plot::line_record(&title, axis, &rows()?)),
                 What::Loads => grain_plots::loads(&title, &table)?,
                 What::GrainMeans => grain_plots::means(&title, &rows()?),
-                What::Fields { .. } | What::Slice { .. } | What::Grains => None,
+                What::ContactMeans => bed_plots::contacts(&title, &rows()?),
+                What::Layers { axis, .. } => bed_plots::layers(&title, axis, &rows()?),
+                What::Walls
+                | What::Fields { .. }
+                | What::Slice { .. }
+                | What::Grains
+                | What::Contacts => None,
             })
         };
         write(&folder.join(names::picture(&record.name)), |path| match figure()? {

@@ -84,6 +84,19 @@ round-off. Positions of moving grains are not wrapped at periodic faces. Pressur
 at its reference density.
 `grain_means` are means and sums over the free grains; contacts are those between grains and with faces,
 and the overlap is divided by the mean diameter of the two.
+In `layers` pressure and velocity are means over the pores (over the cells, each with the share of it that no grain covers), so the
+velocity times the porosity is about the superficial one; `hydraulic_gradient` is (G - dp/dx)/(rho g) along the axis, between
+the layers on either side, with the fluid's density rho and g the acceleration of [gravity], or 9.81 m/s2 without; grains are those
+with their centres in the layer, their coordination number is the mean count of contacts, faces included. An effective
+stress is -sum(F l)/V over the contacts, F the force on a grain and l the part within the layer of the branch from its centre to the
+other's or to the face (Love and Weber); compression is positive. Over a whole layer of a bed at rest it is the weight, less
+buoyancy, of what lies above, over the area. The stress of the grains' motion is left out.
+In `walls` the fluid's force is that of the last step, pressure being that above the reference density; there is none (NaN) at faces
+through which the fluid flows, where grains are still stopped as by a sieve. Contacts are looked at as they are at that moment:
+springs and dashpots, without lubrication.
+In `contact_means` the contacts are those between grains, the coordination number counts faces too; the fabric is the mean of n_i n_j,
+n the unit normals, and the stress that of `layers`, over the whole domain.
+The files of `contacts` hold a line for each contact, from centre to centre or to the face (`other grain` -1), with its force.
 
 ";
 

@@ -3,11 +3,14 @@
 use serde_json::{Map, Value as Json, json};
 
 use crate::engine::Coupled;
-use crate::output::grain_means;
 use crate::output::records::{box_row, force_row, profile_rows};
+use crate::output::walls::{self, FaceForces};
+use crate::output::{contacts, grain_means};
 use crate::run::End;
 use crate::run::steady::value_of;
-use crate::scene::columns::{BOX_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS};
+use crate::scene::columns::{
+    BOX_COLUMNS, CONTACT_MEAN_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS,
+};
 use crate::scene::{Scene, What};
 
 /// The values of the records that are numbers, as they are now: by the name of the record, then by its column.
@@ -18,13 +21,19 @@ pub(super) fn results(scene: &Scene, engine: &Coupled) -> Json {
         let values: Vec<(Column, f64)> = match &record.what {
             What::Box => pairs(&BOX_COLUMNS, &box_row(scene, engine)),
             What::GrainMeans => pairs(&GRAIN_MEAN_COLUMNS, &grain_means::row(scene, engine)),
+            What::ContactMeans => pairs(&CONTACT_MEAN_COLUMNS, &contacts::row(scene, engine)),
             What::Loads => pairs(&FORCE_COLUMNS, &force_row(scene, engine)),
             What::Profile { axis, through } => {
                 let rows = profile_rows(scene, engine, *axis, *through);
                 let speed = rows.iter().map(|row| row[2].hypot(row[3]).hypot(row[4]));
                 vec![(Column::new("max_speed", "m/s"), speed.fold(0.0, f64::max))]
             }
-            What::Fields { .. } | What::Slice { .. } | What::Grains => continue,
+            What::Layers { .. }
+            | What::Walls
+            | What::Fields { .. }
+            | What::Slice { .. }
+            | What::Grains
+            | What::Contacts => continue,
         };
         let values = values.into_iter().map(|(column, value)| (column.title(), json!(value)));
         all.insert(record.name.clone(), Json::Object(values.collect()));
@@ -58,9 +67,28 @@ pub(super) fn to_text(scene: &Scene, engine: &Coupled) -> String {
                 )
             }
             What::Loads => format!("force on all grains {} N", vector(force_row(scene, engine))),
-            What::Profile { .. } | What::Fields { .. } | What::Slice { .. } | What::Grains => {
-                continue;
+            What::Walls => {
+                let of_grains = |forces: &FaceForces| {
+                    let size = forces.grains.iter().map(|f| f * f).sum::<f64>().sqrt();
+                    (size > 0.0).then(|| format!("{} {}", forces.face, vector(forces.grains)))
+                };
+                let forces = walls::forces(scene, engine);
+                let all: Vec<String> = forces.iter().filter_map(of_grains).collect();
+                if all.is_empty() {
+                    continue;
+                }
+                format!("forces of grains on faces: {} N", all.join(", "))
             }
+            What::ContactMeans => {
+                let [contacts, coordination, ..] = contacts::row(scene, engine);
+                format!("{contacts} contacts between grains, {coordination:.2} contacts a grain")
+            }
+            What::Profile { .. }
+            | What::Layers { .. }
+            | What::Fields { .. }
+            | What::Slice { .. }
+            | What::Grains
+            | What::Contacts => continue,
         };
         lines.push(format!("  {:<width$}  {words}", record.name));
     }

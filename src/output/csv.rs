@@ -17,6 +17,8 @@ pub enum Value {
     Whole(u64),
     /// A number with all its digits: it reads back as the same bits.
     Real(f64),
+    /// A name without commas or quotes.
+    Word(&'static str),
 }
 
 impl fmt::Display for Value {
@@ -24,6 +26,7 @@ impl fmt::Display for Value {
         match self {
             Value::Whole(value) => write!(out, "{value}"),
             Value::Real(value) => write!(out, "{value:?}"),
+            Value::Word(word) => out.write_str(word),
         }
     }
 }

@@ -1,13 +1,16 @@
 //! What a run leaves behind: one file a format.
 
 pub mod atomic;
+pub mod bed_plots;
 pub mod between;
+pub mod contacts;
 pub mod csv;
 pub mod folder;
 pub mod grain_list;
 pub mod grain_means;
 pub mod grain_plots;
 pub mod hashed;
+pub mod layers;
 pub mod loads;
 pub mod lock;
 pub mod npy;
@@ -16,3 +19,5 @@ pub mod records;
 pub mod slice;
 pub mod snapshots;
 pub mod vtk;
+pub mod walls;
+mod wrapped;

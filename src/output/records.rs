@@ -8,10 +8,11 @@ use psmrt_reference::solids::Load;
 
 use super::csv::{Mark, TableFile, Value};
 use super::loads::rows_of;
-use super::{between, grain_means, snapshots};
+use super::{between, contacts, grain_means, layers, snapshots, walls};
 use crate::engine::{Block, CellState, Coupled};
 use crate::scene::columns::{
-    BOX_COLUMNS, Column, GRAIN_MEAN_COLUMNS, LOAD_COLUMNS, PROFILE_COLUMNS,
+    BOX_COLUMNS, CONTACT_MEAN_COLUMNS, Column, GRAIN_MEAN_COLUMNS, LAYER_COLUMNS, LOAD_COLUMNS,
+    PROFILE_COLUMNS, WALL_COLUMNS,
 };
 use crate::scene::{Record, Scene, What, names};
 
@@ -82,13 +83,23 @@ impl Recorder {
             table.add(&[&now, start, &values].concat())
         };
         match &self.record.what {
-            What::Box | What::GrainMeans => {
+            What::Box | What::GrainMeans | What::ContactMeans => {
                 self.watched = watched_row(&self.record.what, scene, engine);
                 add(&[], self.watched.as_deref().unwrap_or_default())?;
             }
             What::Profile { axis, through } => {
                 for row in profile_rows(scene, engine, *axis, *through) {
                     add(&[], &row)?;
+                }
+            }
+            What::Layers { axis, count } => {
+                for row in layers::rows(scene, engine, *axis, *count) {
+                    add(&[], &row)?;
+                }
+            }
+            What::Walls => {
+                for forces in walls::forces(scene, engine) {
+                    add(&[Value::Word(forces.face)], &[forces.fluid, forces.grains].concat())?;
                 }
             }
             What::Loads => {
@@ -98,7 +109,7 @@ impl Recorder {
                     add(&[Value::Whole(grain)], &row[1..])?;
                 }
             }
-            What::Fields { .. } | What::Slice { .. } | What::Grains => {}
+            What::Fields { .. } | What::Slice { .. } | What::Grains | What::Contacts => {}
         }
         table.flush()
     }
@@ -127,7 +138,10 @@ pub fn columns(record: &Record) -> Option<Vec<Column>> {
         What::Profile { .. } => &PROFILE_COLUMNS,
         What::Loads => &LOAD_COLUMNS,
         What::GrainMeans => &GRAIN_MEAN_COLUMNS,
-        What::Fields { .. } | What::Slice { .. } | What::Grains => return None,
+        What::Layers { .. } => &LAYER_COLUMNS,
+        What::Walls => &WALL_COLUMNS,
+        What::ContactMeans => &CONTACT_MEAN_COLUMNS,
+        What::Fields { .. } | What::Slice { .. } | What::Grains | What::Contacts => return None,
     };
     let first = [Column::new("time", "s"), Column::new("step", "")];
     Some([first.as_slice(), own].concat())
@@ -176,7 +190,14 @@ pub fn watched_row(what: &What, scene: &Scene, engine: &Coupled) -> Option<Vec<f
         What::Box => Some(box_row(scene, engine).to_vec()),
         What::GrainMeans => Some(grain_means::row(scene, engine).to_vec()),
         What::Loads => Some(force_row(scene, engine).to_vec()),
-        What::Profile { .. } | What::Fields { .. } | What::Slice { .. } | What::Grains => None,
+        What::ContactMeans => Some(contacts::row(scene, engine).to_vec()),
+        What::Profile { .. }
+        | What::Layers { .. }
+        | What::Walls
+        | What::Fields { .. }
+        | What::Slice { .. }
+        | What::Grains
+        | What::Contacts => None,
     }
 }
 

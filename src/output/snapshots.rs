@@ -3,10 +3,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use psmrt_reference::domain::Domain;
-
 use super::vtk::Array;
-use super::{atomic, grain_means, npy, vtk};
+use super::wrapped::wrapped;
+use super::{atomic, contacts, grain_means, npy, vtk};
 use crate::engine::{Block, CellState, Coupled};
 use crate::scene::format_run::FieldFormat;
 use crate::scene::names;
@@ -20,6 +19,10 @@ pub fn take(record: &Record, scene: &Scene, engine: &Coupled, folder: &Path) -> 
     let suffix = match &record.what {
         What::Grains => {
             grains(scene, engine, &folder_of_files.join(file(name, step, "vtp")))?;
+            "vtp"
+        }
+        What::Contacts => {
+            contacts::network(scene, engine, &folder_of_files.join(file(name, step, "vtp")))?;
             "vtp"
         }
         What::Slice { normal, at, quantity, si_range } => {
@@ -39,7 +42,13 @@ pub fn take(record: &Record, scene: &Scene, engine: &Coupled, folder: &Path) -> 
             image(scene, &fields, &folder_of_files.join(file(name, step, "vti")))?;
             "vti"
         }
-        What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => return Ok(()),
+        What::Box
+        | What::Profile { .. }
+        | What::Loads
+        | What::GrainMeans
+        | What::Layers { .. }
+        | What::Walls
+        | What::ContactMeans => return Ok(()),
     };
     let times: Vec<u64> = match record.interval {
         OutputInterval::Every(interval) => (0..=step / interval).map(|i| i * interval).collect(),
@@ -118,15 +127,6 @@ fn arrays(scene: &Scene, step: u64, fields: &Fields, folder: &Path) -> io::Resul
         Some(values) => write("solid_fraction", &[nz, ny, nx], values),
         None => Ok(()),
     }
-}
-
-/// A place (m) moved into the domain along periodic axes.
-fn wrapped(domain: &Domain, si_place: &[f64], si_dx: f64) -> [f64; 3] {
-    std::array::from_fn(|axis| {
-        let si_length = domain.cells()[axis] as f64 * si_dx;
-        let periods = (si_place[axis] / si_length).floor();
-        si_place[axis] - if domain.is_periodic(axis) { periods * si_length } else { 0.0 }
-    })
 }
 
 fn grains(scene: &Scene, engine: &Coupled, path: &Path) -> io::Result<()> {

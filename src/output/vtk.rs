@@ -80,11 +80,7 @@ pub fn points(out: &mut impl Write, count: usize, arrays: Vec<Array<'_>>) -> io:
     }
     writeln!(out, "</PointData>\n<Verts>")?;
     for name in ["connectivity", "offsets"] {
-        writeln!(
-            out,
-            "<DataArray type=\"Int64\" Name=\"{name}\" format=\"appended\" offset=\"{offset}\"/>"
-        )?;
-        offset += size_of::<u64>() + count * size_of::<u64>();
+        whole_numbers(out, name, &mut offset, count)?;
     }
     writeln!(out, "</Verts>\n</Piece>\n</PolyData>")?;
     append(out, |out| {
@@ -93,6 +89,40 @@ pub fn points(out: &mut impl Write, count: usize, arrays: Vec<Array<'_>>) -> io:
         }
         block(out, count, (0..count as u64).map(u64::to_le_bytes))?;
         block(out, count, (1..=count as u64).map(u64::to_le_bytes))
+    })
+}
+
+/// `count` lines of two points each with values in double precision; the first array holds the places of their ends, the
+/// others one value a line.
+pub fn lines(out: &mut impl Write, count: usize, arrays: Vec<Array<'_>>) -> io::Result<()> {
+    writeln!(out, "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" {HEAD}>")?;
+    writeln!(
+        out,
+        "<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{count}\" \
+         NumberOfStrips=\"0\" NumberOfPolys=\"0\">",
+        2 * count
+    )?;
+    let of = |number: usize| if number == 0 { 2 * count } else { count };
+    let mut offset = 0;
+    for (number, array) in arrays.iter().enumerate() {
+        writeln!(out, "{}", ["<Points>", "<CellData>", ""][number.min(2)])?;
+        let bytes = of(number) * array.components * size_of::<f64>();
+        declare(out, array, "Float64", &mut offset, bytes)?;
+        if number == 0 {
+            writeln!(out, "</Points>")?;
+        }
+    }
+    writeln!(out, "</CellData>\n<Lines>")?;
+    for (name, numbers) in [("connectivity", 2 * count), ("offsets", count)] {
+        whole_numbers(out, name, &mut offset, numbers)?;
+    }
+    writeln!(out, "</Lines>\n</Piece>\n</PolyData>")?;
+    append(out, |out| {
+        for (number, array) in arrays.into_iter().enumerate() {
+            block(out, of(number) * array.components, array.values.map(f64::to_le_bytes))?;
+        }
+        block(out, 2 * count, (0..2 * count as u64).map(u64::to_le_bytes))?;
+        block(out, count, (1..=count as u64).map(|line| (2 * line).to_le_bytes()))
     })
 }
 
@@ -120,6 +150,21 @@ fn declare(
          format=\"appended\" offset=\"{offset}\"/>"
     )?;
     *offset += size_of::<u64>() + bytes;
+    Ok(())
+}
+
+/// Says where as many whole numbers begin.
+fn whole_numbers(
+    out: &mut impl Write,
+    name: &str,
+    offset: &mut usize,
+    count: usize,
+) -> io::Result<()> {
+    writeln!(
+        out,
+        "<DataArray type=\"Int64\" Name=\"{name}\" format=\"appended\" offset=\"{offset}\"/>"
+    )?;
+    *offset += size_of::<u64>() + count * size_of::<u64>();
     Ok(())
 }
 

@@ -89,12 +89,62 @@ pub const GRAIN_MEAN_COLUMNS: [Column; 10] = [
     Column::new("largest_overlap", ""),
 ];
 
+/// The columns of a record of kind `layers`, after time and step.
+pub const LAYER_COLUMNS: [Column; 13] = [
+    Column::new("low", "m"),
+    Column::new("high", "m"),
+    Column::new("porosity", ""),
+    Column::new("pressure", "Pa"),
+    Column::new("hydraulic_gradient", ""),
+    Column::new("velocity_x", "m/s"),
+    Column::new("velocity_y", "m/s"),
+    Column::new("velocity_z", "m/s"),
+    Column::new("grains", ""),
+    Column::new("coordination_number", ""),
+    Column::new("effective_stress_x", "Pa"),
+    Column::new("effective_stress_y", "Pa"),
+    Column::new("effective_stress_z", "Pa"),
+];
+
+/// The columns of a record of kind `walls`, after time and step.
+pub const WALL_COLUMNS: [Column; 7] = [
+    Column::new("face", ""),
+    Column::new("fluid_force_x", "N"),
+    Column::new("fluid_force_y", "N"),
+    Column::new("fluid_force_z", "N"),
+    Column::new("grain_force_x", "N"),
+    Column::new("grain_force_y", "N"),
+    Column::new("grain_force_z", "N"),
+];
+
+/// The columns of a record of kind `contact_means`, after time and step.
+pub const CONTACT_MEAN_COLUMNS: [Column; 15] = [
+    Column::new("contacts", ""),
+    Column::new("coordination_number", ""),
+    Column::new("normal_force", "N"),
+    Column::new("fabric_xx", ""),
+    Column::new("fabric_yy", ""),
+    Column::new("fabric_zz", ""),
+    Column::new("fabric_xy", ""),
+    Column::new("fabric_xz", ""),
+    Column::new("fabric_yz", ""),
+    Column::new("stress_xx", "Pa"),
+    Column::new("stress_yy", "Pa"),
+    Column::new("stress_zz", "Pa"),
+    Column::new("stress_xy", "Pa"),
+    Column::new("stress_xz", "Pa"),
+    Column::new("stress_yz", "Pa"),
+];
+
 /// The records that are tables: kind and columns, after time and step.
-pub fn tables() -> [(&'static str, &'static [Column]); 4] {
+pub fn tables() -> [(&'static str, &'static [Column]); 7] {
     [
         ("box", &BOX_COLUMNS),
         ("profile", &PROFILE_COLUMNS),
         ("loads", &LOAD_COLUMNS),
         ("grain_means", &GRAIN_MEAN_COLUMNS),
+        ("layers", &LAYER_COLUMNS),
+        ("walls", &WALL_COLUMNS),
+        ("contact_means", &CONTACT_MEAN_COLUMNS),
     ]
 }

@@ -13,7 +13,9 @@ pub struct RecordSection {
     /// Name of the record and of its file: letters, digits, `-` and `_`.
     pub name: String,
     /// `box` (means over the domain, with the superficial velocity), `profile` (values along a line), `loads` (position,
-    /// motion, and hydrodynamic force and torque of each grain), `grain_means` (means over the free grains), `slice` (a
+    /// motion, and hydrodynamic force and torque of each grain), `grain_means` (means over the free grains), `layers`
+    /// (porosity, pressure, flow and stresses of grains by layers), `walls` (forces on the faces), `contact_means` (fabric and
+    /// stress), `contacts` (the network of contacts, for ParaView), `slice` (a
     /// picture of a plane), `fields` (all cells) or `grains` (all grains, for ParaView). The superficial velocity is
     /// the mass flux over the fluid's density, averaged over all cells, those in grains included; the mass flux is the
     /// mean of the momentum before and after a collision. The first row holds the values at the start.
@@ -23,13 +25,15 @@ pub struct RecordSection {
     /// Steps between rows.
     pub every_steps: Option<i64>,
     /// With `profile`: the axis along which the line runs; with `slice`: the axis that the plane is
-    /// normal to.
+    /// normal to; with `layers`: the axis along which they follow one another.
     pub axis: Option<AxisName>,
     /// With `profile` and `slice`: a point on the line or plane, m; the middle of the domain where absent. Between
     /// the centres of cells (for instance in the middle of an even number of them) values are interpolated linearly from
     /// the two or four nearest lines or planes of cells, those in grains included, also across periodic faces;
     /// within half a cell of other faces they are extrapolated linearly from the two nearest ones.
     pub point: Option<Triple>,
+    /// With `layers`: how many, of whole cells and as thick as each other as can be; at least 2, or 1 along a periodic axis.
+    pub layers: Option<i64>,
     /// With `slice`: what the colours show; `speed` where absent.
     pub quantity: Option<Quantity>,
     /// With `slice`: the values at the lower and the upper end of the colours, in m/s or Pa, the same for all
@@ -59,6 +63,14 @@ pub enum RecordKind {
     Grains,
     /// Means over the free grains: position, motion, energy and contacts.
     GrainMeans,
+    /// Porosity, pressure, flow, and grains with their stresses, in layers across an axis.
+    Layers,
+    /// Forces of fluid and grains on each face that is not periodic.
+    Walls,
+    /// Contacts of the free grains: how many, their fabric and the stress that they bear.
+    ContactMeans,
+    /// The network of contacts of the free grains, each with its force.
+    Contacts,
 }
 
 /// What a picture shows.

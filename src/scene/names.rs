@@ -59,11 +59,17 @@ pub fn all(records: &[Record], lists: &[Attachment], compares: bool) -> Vec<Made
     for (number, record) in records.iter().enumerate() {
         let (by, name) = (MadeBy::Record(number), &record.name);
         match record.what {
-            What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => {
+            What::Walls => made.push(file(by, table(name))),
+            What::Box
+            | What::Profile { .. }
+            | What::Loads
+            | What::GrainMeans
+            | What::Layers { .. }
+            | What::ContactMeans => {
                 made.push(file(by, table(name)));
                 made.push(file(by, picture(name)));
             }
-            What::Fields { .. } | What::Grains => {
+            What::Fields { .. } | What::Grains | What::Contacts => {
                 made.push(folder(by, name));
                 made.push(file(by, series(name)));
             }

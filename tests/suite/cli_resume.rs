@@ -76,6 +76,20 @@ name = "means"
 kind = "grain_means"
 every_steps = 5
 [[records]]
+name = "layers"
+kind = "layers"
+axis = "z"
+layers = 5
+every_steps = 8
+[[records]]
+name = "walls"
+kind = "walls"
+every_steps = 8
+[[records]]
+name = "contact_means"
+kind = "contact_means"
+every_steps = 4
+[[records]]
 name = "grains"
 kind = "grains"
 every_steps = 50
@@ -148,8 +162,8 @@ fn a_run_killed_again_and_again_ends_with_the_same_bytes() {
 #[test]
 fn a_run_with_free_grains_that_touch_ends_with_the_same_bytes_too() {
     Budget::oracle(7_000_000).spend(5 * 500 * 16 * 12 * 14);
-    // The list of grains, two tables and their pictures, 9 files of grains and their series.
-    killed_again_and_again("killed_free", &free_scene(), 1 + 4 + 9 + 1);
+    // The list of grains, five tables and the pictures of four, 9 files of grains and their series.
+    killed_again_and_again("killed_free", &free_scene(), 1 + 4 + 5 + 9 + 1);
 }
 
 fn killed_again_and_again(name: &str, text: &str, files: usize) {

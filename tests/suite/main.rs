@@ -23,6 +23,7 @@ mod scenes;
 
 mod agreement;
 mod bad_scenes;
+mod bed_records;
 mod bits;
 mod bodies;
 mod circles;

@@ -13,6 +13,7 @@
 //! | | the domain, what a set of grains is set up with, and the checks | [`setup`] |
 //! | | order of operations in a sub-step, checkpoints | [`system`] |
 //! | | whether contacts hold | [`hold`] |
+//! | | the contacts as they are now | [`touching`] |
 //!
 //! Units: any consistent ones (SI, or the lattice units of the fluid): nothing here has a scale of
 //! its own. Units are given as `length`, `time`, `mass` and what is made of them. Angles are radians.
@@ -32,3 +33,4 @@ pub mod random;
 pub mod setup;
 pub mod sunk;
 pub mod system;
+pub mod touching;

@@ -99,15 +99,11 @@ impl GrainSystem {
 
     /// All that changes in time.
     pub fn state(&self) -> GrainState {
-        let remembered = |(place, entry): (usize, &(Option<ContactMemory>, _))| {
-            let (grain, plane) = (place / self.planes.len(), place % self.planes.len());
-            entry.0.map(|memory| PlaneContact { grain, plane, memory })
-        };
         GrainState {
             grains: self.grains.clone(),
             planes: self.planes.clone(),
             pair_contacts: self.list.memories(),
-            plane_contacts: self.at_planes.iter().enumerate().filter_map(remembered).collect(),
+            plane_contacts: self.plane_contacts(),
             contact_loads: self.contact_loads.clone(),
         }
     }
@@ -227,6 +223,15 @@ impl GrainSystem {
     /// The pairs that may touch, sorted, with their forces and memories.
     pub fn pairs(&self) -> &[Pair] {
         self.list.pairs()
+    }
+
+    /// What grains that touch planes remember, sorted by grain and plane.
+    pub fn plane_contacts(&self) -> Vec<PlaneContact> {
+        let remembered = |(place, entry): (usize, &(Option<ContactMemory>, _))| {
+            let (grain, plane) = (place / self.planes.len(), place % self.planes.len());
+            entry.0.map(|memory| PlaneContact { grain, plane, memory })
+        };
+        self.at_planes.iter().enumerate().filter_map(remembered).collect()
     }
 
     /// How often the list of pairs has been made.

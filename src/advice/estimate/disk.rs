@@ -29,6 +29,14 @@ const HEADS: f64 = 3e3;
 /// A grain in a file for ParaView: 22 numbers in double precision, and two of the lists of points.
 const GRAIN_POINT: f64 = 24.0 * 8.0;
 
+/// A contact in such a file: 13 numbers, and three of the lists of lines. In the densest packing each of two grains has
+/// twelve contacts.
+const CONTACT_LINE: f64 = 16.0 * 8.0;
+const CONTACTS_OF_GRAIN: f64 = 6.0;
+
+/// Faces of a domain.
+const FACES: f64 = 6.0;
+
 /// A grain in a checkpoint: its motion, its load and a few contacts.
 const GRAIN_STATE: f64 = 1000.0;
 
@@ -78,7 +86,10 @@ fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
     let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
     let row = columns as f64 * TEXT_NUMBER;
     match what {
-        What::Box | What::GrainMeans => row,
+        What::Box | What::GrainMeans | What::ContactMeans => row,
+        What::Layers { count, .. } => row * *count as f64,
+        What::Walls => row * FACES,
+        What::Contacts => HEADS + CONTACT_LINE * CONTACTS_OF_GRAIN * solids,
         What::Profile { axis, .. } => row * cells[*axis],
         What::Loads => row * solids,
         What::Grains => HEADS + GRAIN_POINT * solids,

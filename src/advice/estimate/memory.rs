@@ -65,7 +65,10 @@ fn of_record(scene: &Scene, what: &What) -> u64 {
         // Cells, values, and the picture as text.
         What::Slice { normal, .. } => (state + 128) * nx * ny * nz / [nx, ny, nz][normal],
         What::Profile { axis, .. } => (state + 48) * [nx, ny, nz][axis],
-        What::Loads | What::Grains | What::GrainMeans => {
+        // Cells of a plane at a time.
+        What::Layers { .. } => (state + 8) * nx * ny,
+        What::Walls => (19 * 8 + 8) * (nx * ny).max(nx * nz).max(ny * nz),
+        What::Loads | What::Grains | What::GrainMeans | What::ContactMeans | What::Contacts => {
             let grains = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len());
             512 * grains as u64
         }

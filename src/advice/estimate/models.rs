@@ -72,6 +72,10 @@ pub fn models(scene: &Scene) -> Vec<String> {
             What::Fields { .. } => "fields",
             What::Grains => "grains",
             What::GrainMeans => "means over the free grains",
+            What::Layers { .. } => "layers of the bed",
+            What::Walls => "forces on the faces",
+            What::ContactMeans => "means over the contacts of the free grains",
+            What::Contacts => "the network of contacts",
         };
         let interval = match record.interval {
             OutputInterval::Every(steps) => {

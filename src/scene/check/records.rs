@@ -59,6 +59,19 @@ pub enum What {
     Grains,
     /// Means over the free grains.
     GrainMeans,
+    /// Layers across `axis`.
+    Layers {
+        /// 0, 1 or 2.
+        axis: usize,
+        /// How many.
+        count: usize,
+    },
+    /// Forces on the faces.
+    Walls,
+    /// Contacts of the free grains summed up.
+    ContactMeans,
+    /// All contacts of the free grains, a file each time.
+    Contacts,
 }
 
 /// How often a record is taken.
@@ -149,16 +162,22 @@ fn what(
         let problem = "the scene has no grains to record";
         return Err(Trouble::new(at("kind"), problem, "add [[grains]], or remove this record"));
     }
-    if section.kind == RecordKind::GrainMeans && !free {
+    let of_free = [RecordKind::GrainMeans, RecordKind::ContactMeans, RecordKind::Contacts];
+    if of_free.contains(&section.kind) && !free {
         let problem = "the scene has no free grains to record";
         let remedy = "add `motion = \"free\"` to grains, or remove this record";
         return Err(Trouble::new(at("kind"), problem, remedy));
     }
-    let needs_axis = matches!(section.kind, RecordKind::Profile | RecordKind::Slice);
-    if !needs_axis {
-        let belongs = "records of kind `profile` and `slice`";
-        absent(&at("axis"), section.axis.as_ref(), belongs)?;
-        absent(&at("point"), section.point.as_ref(), belongs)?;
+    let has_point = matches!(section.kind, RecordKind::Profile | RecordKind::Slice);
+    if !has_point {
+        absent(&at("point"), section.point.as_ref(), "records of kind `profile` and `slice`")?;
+    }
+    if section.kind != RecordKind::Layers {
+        absent(&at("layers"), section.layers.as_ref(), "records of kind `layers`")?;
+        if !has_point {
+            let belongs = "records of kind `profile`, `slice` and `layers`";
+            absent(&at("axis"), section.axis.as_ref(), belongs)?;
+        }
     }
     if section.kind != RecordKind::Slice {
         absent(&at("quantity"), section.quantity.as_ref(), "records of kind `slice`")?;
@@ -166,7 +185,7 @@ fn what(
     }
     let axis = || {
         let remedy = "add `axis = \"x\"`, \"y\" or \"z\"";
-        let because = "a profile or slice needs it";
+        let because = "profiles, slices and layers need it";
         Ok(needed(&at("axis"), section.axis, because, remedy)?.index())
     };
     let through = || match section.point {
@@ -185,6 +204,16 @@ fn what(
         RecordKind::Loads => What::Loads,
         RecordKind::Grains => What::Grains,
         RecordKind::GrainMeans => What::GrainMeans,
+        RecordKind::Layers => {
+            let axis = axis()?;
+            What::Layers {
+                axis,
+                count: layers(&at("layers"), section.layers, axis, &setup.domain)?,
+            }
+        }
+        RecordKind::Walls => walls(&at("kind"), &setup.domain)?,
+        RecordKind::ContactMeans => What::ContactMeans,
+        RecordKind::Contacts => What::Contacts,
         RecordKind::Fields => {
             let formats = section.formats.clone().unwrap_or_else(|| vec![FieldFormat::Vti]);
             if formats.is_empty() {
@@ -194,6 +223,33 @@ fn what(
             What::Fields { formats }
         }
     })
+}
+
+/// How many layers of cells across `axis`.
+fn layers(key: &str, layers: Option<i64>, axis: usize, domain: &Domain) -> Result<usize, Trouble> {
+    let (cells, name) = (domain.cells()[axis], ["x", "y", "z"][axis]);
+    // The gradient of a layer is that between its neighbours.
+    let least = if domain.is_periodic(axis) { 1 } else { 2 };
+    let remedy = format!("add `layers = {}`, say", (cells / 8).max(least));
+    let asked = needed(key, layers, "it says how many layers there are", &remedy)?;
+    match usize::try_from(asked) {
+        Ok(count) if (least..=cells).contains(&count) => Ok(count),
+        _ => {
+            let problem = format!(
+                "{asked} layers: there may be {least} to {cells}, the cells of the domain along {name}"
+            );
+            Err(Trouble::new(key, problem, format!("give {}, say", (cells / 8).max(least))))
+        }
+    }
+}
+
+/// Errors if there is no face to record.
+fn walls(key: &str, domain: &Domain) -> Result<What, Trouble> {
+    if (0..3).all(|axis| domain.is_periodic(axis)) {
+        let problem = "all faces are periodic: none has forces to record";
+        return Err(Trouble::new(key, problem, "make a face a wall, or remove this record"));
+    }
+    Ok(What::Walls)
 }
 
 /// Errors if two of the files that a run makes would be the same.

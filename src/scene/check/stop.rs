@@ -3,7 +3,9 @@
 use super::Trouble;
 use super::numbers::{count, steps};
 use super::records::{OutputInterval, Record, What};
-use crate::scene::columns::{BOX_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS};
+use crate::scene::columns::{
+    BOX_COLUMNS, CONTACT_MEAN_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS,
+};
 use crate::scene::format_run::{SteadySection, StopSection};
 use crate::units::Units;
 
@@ -19,7 +21,7 @@ pub struct Stop {
 /// A steady-state criterion: what a column has still to go is estimated to be less than `tolerance`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
-    /// Number of the record, of kind [`What::Box`], [`What::GrainMeans`] or [`What::Loads`].
+    /// Number of the record, of kind [`What::Box`], [`What::GrainMeans`], [`What::ContactMeans`] or [`What::Loads`].
     pub record: usize,
     /// Number of the column in [`BOX_COLUMNS`], [`GRAIN_MEAN_COLUMNS`] or, summed over all grains,
     /// [`FORCE_COLUMNS`].
@@ -117,6 +119,13 @@ fn columns(record: &Record) -> Option<&'static [Column]> {
         What::Box => Some(&BOX_COLUMNS),
         What::GrainMeans => Some(&GRAIN_MEAN_COLUMNS),
         What::Loads => Some(&FORCE_COLUMNS),
-        What::Profile { .. } | What::Fields { .. } | What::Slice { .. } | What::Grains => None,
+        What::ContactMeans => Some(&CONTACT_MEAN_COLUMNS),
+        What::Profile { .. }
+        | What::Layers { .. }
+        | What::Walls
+        | What::Fields { .. }
+        | What::Slice { .. }
+        | What::Grains
+        | What::Contacts => None,
     }
 }
