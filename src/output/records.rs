@@ -11,9 +11,10 @@ use super::loads::rows_of;
 use super::{between, grain_means, snapshots};
 use crate::engine::{Block, CellState, Coupled};
 use crate::scene::columns::{
-    BOX_COLUMNS, Column, GRAIN_MEAN_COLUMNS, LOAD_COLUMNS, PROFILE_COLUMNS,
+    BOX_COLUMNS, Column, GRAIN_MEAN_COLUMNS, LOAD_COLUMNS, PERMEABILITY_COLUMNS, PROFILE_COLUMNS,
 };
 use crate::scene::{Record, Scene, What, names};
+use crate::seepage::permeability::{Seepage, seepage};
 
 /// Takes one record.
 #[derive(Debug)]
@@ -82,7 +83,7 @@ impl Recorder {
             table.add(&[&now, start, &values].concat())
         };
         match &self.record.what {
-            What::Box | What::GrainMeans => {
+            What::Box | What::GrainMeans | What::Permeability { .. } => {
                 self.watched = watched_row(&self.record.what, scene, engine);
                 add(&[], self.watched.as_deref().unwrap_or_default())?;
             }
@@ -127,6 +128,7 @@ pub fn columns(record: &Record) -> Option<Vec<Column>> {
         What::Profile { .. } => &PROFILE_COLUMNS,
         What::Loads => &LOAD_COLUMNS,
         What::GrainMeans => &GRAIN_MEAN_COLUMNS,
+        What::Permeability { .. } => &PERMEABILITY_COLUMNS,
         What::Fields { .. } | What::Slice { .. } | What::Grains => return None,
     };
     let first = [Column::new("time", "s"), Column::new("step", "")];
@@ -176,8 +178,17 @@ pub fn watched_row(what: &What, scene: &Scene, engine: &Coupled) -> Option<Vec<f
         What::Box => Some(box_row(scene, engine).to_vec()),
         What::GrainMeans => Some(grain_means::row(scene, engine).to_vec()),
         What::Loads => Some(force_row(scene, engine).to_vec()),
+        What::Permeability { axis, si_gravity } => {
+            Some(seepage_now(scene, engine, (*axis, *si_gravity)).row().to_vec())
+        }
         What::Profile { .. } | What::Fields { .. } | What::Slice { .. } | What::Grains => None,
     }
+}
+
+/// The bed and the flow through it along an axis, with a gravity for heads (m/s2): what `permeability` has.
+pub fn seepage_now(scene: &Scene, engine: &Coupled, flow: (usize, f64)) -> Seepage {
+    let [_, x, y, z, _] = box_row(scene, engine);
+    seepage(scene, engine, flow, [x, y, z][flow.0])
 }
 
 /// The values of the columns of a profile along `axis` through a point (in cells): at each centre of a cell along

@@ -39,7 +39,11 @@ pub fn take(record: &Record, scene: &Scene, engine: &Coupled, folder: &Path) -> 
             image(scene, &fields, &folder_of_files.join(file(name, step, "vti")))?;
             "vti"
         }
-        What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => return Ok(()),
+        What::Box
+        | What::Profile { .. }
+        | What::Loads
+        | What::GrainMeans
+        | What::Permeability { .. } => return Ok(()),
     };
     let times: Vec<u64> = match record.interval {
         OutputInterval::Every(interval) => (0..=step / interval).map(|i| i * interval).collect(),

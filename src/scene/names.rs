@@ -59,7 +59,11 @@ pub fn all(records: &[Record], lists: &[Attachment], compares: bool) -> Vec<Made
     for (number, record) in records.iter().enumerate() {
         let (by, name) = (MadeBy::Record(number), &record.name);
         match record.what {
-            What::Box | What::Profile { .. } | What::Loads | What::GrainMeans => {
+            What::Box
+            | What::Profile { .. }
+            | What::Loads
+            | What::GrainMeans
+            | What::Permeability { .. } => {
                 made.push(file(by, table(name)));
                 made.push(file(by, picture(name)));
             }

@@ -78,7 +78,7 @@ fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
     let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
     let row = columns as f64 * TEXT_NUMBER;
     match what {
-        What::Box | What::GrainMeans => row,
+        What::Box | What::GrainMeans | What::Permeability { .. } => row,
         What::Profile { axis, .. } => row * cells[*axis],
         What::Loads => row * solids,
         What::Grains => HEADS + GRAIN_POINT * solids,

@@ -72,6 +72,7 @@ pub fn models(scene: &Scene) -> Vec<String> {
             What::Fields { .. } => "fields",
             What::Grains => "grains",
             What::GrainMeans => "means over the free grains",
+            What::Permeability { .. } => "permeability of the bed",
         };
         let interval = match record.interval {
             OutputInterval::Every(steps) => {

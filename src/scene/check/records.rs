@@ -5,9 +5,10 @@ use std::fmt;
 use psmrt_reference::domain::Domain;
 use psmrt_reference::setup::Setup;
 
-use super::Trouble;
+use super::free::FreePart;
 use super::grains::Attachment;
 use super::numbers::{absent, count, finite, needed, steps};
+use super::{Trouble, permeability};
 use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
 use crate::scene::names::{self, Made, MadeBy};
 use crate::units::Units;
@@ -59,6 +60,13 @@ pub enum What {
     Grains,
     /// Means over the free grains.
     GrainMeans,
+    /// Permeability of a bed.
+    Permeability {
+        /// Axis of the flow: 0, 1 or 2.
+        axis: usize,
+        /// Gravity that heads are taken with, m/s2.
+        si_gravity: f64,
+    },
 }
 
 /// How often a record is taken.
@@ -97,7 +105,7 @@ impl AxisName {
 pub(super) fn records(
     sections: &[RecordSection],
     setup: &Setup,
-    free: bool,
+    free: Option<&FreePart>,
     units: &Units,
 ) -> Result<Vec<Record>, Trouble> {
     let mut records: Vec<Record> = Vec::new();
@@ -138,7 +146,7 @@ fn what(
     section: &RecordSection,
     at: &impl Fn(&str) -> String,
     setup: &Setup,
-    free: bool,
+    free: Option<&FreePart>,
     units: &Units,
 ) -> Result<What, Trouble> {
     if section.kind != RecordKind::Fields {
@@ -149,15 +157,18 @@ fn what(
         let problem = "the scene has no grains to record";
         return Err(Trouble::new(at("kind"), problem, "add [[grains]], or remove this record"));
     }
-    if section.kind == RecordKind::GrainMeans && !free {
+    if section.kind == RecordKind::GrainMeans && free.is_none() {
         let problem = "the scene has no free grains to record";
         let remedy = "add `motion = \"free\"` to grains, or remove this record";
         return Err(Trouble::new(at("kind"), problem, remedy));
     }
-    let needs_axis = matches!(section.kind, RecordKind::Profile | RecordKind::Slice);
-    if !needs_axis {
-        let belongs = "records of kind `profile` and `slice`";
+    let has_place = matches!(section.kind, RecordKind::Profile | RecordKind::Slice);
+    if !has_place && section.kind != RecordKind::Permeability {
+        let belongs = "records of kind `profile`, `slice` and `permeability`";
         absent(&at("axis"), section.axis.as_ref(), belongs)?;
+    }
+    if !has_place {
+        let belongs = "records of kind `profile` and `slice`";
         absent(&at("point"), section.point.as_ref(), belongs)?;
     }
     if section.kind != RecordKind::Slice {
@@ -185,6 +196,10 @@ fn what(
         RecordKind::Loads => What::Loads,
         RecordKind::Grains => What::Grains,
         RecordKind::GrainMeans => What::GrainMeans,
+        RecordKind::Permeability => {
+            let (axis, si_gravity) = permeability::flow(at, section.axis, setup, free, units)?;
+            What::Permeability { axis, si_gravity }
+        }
         RecordKind::Fields => {
             let formats = section.formats.clone().unwrap_or_else(|| vec![FieldFormat::Vti]);
             if formats.is_empty() {
