@@ -15,8 +15,10 @@
 //! | [`diagnosis`] | why a run was stopped, and what to change |
 //! | [`stopped_grain`] | why a run stopped at a free grain |
 //! | [`command`] | the commands of the command line |
+//! | [`seepage`] | flow through a bed of grains: where it lies, its permeability, laws for it |
 //! | [`packing`] | packings, suspensions and settled beds of grains to start from |
 //! | [`conformance`] | the conformance kit: problems for other people's kernels, a verdict on their answers |
+//! | [`convergence`] | how uncertain a result is, by three grids |
 //! | [`ball`] | what cells share with a ball |
 //! | [`lanes`] | vectors of numbers |
 //! | [`table`] | rows of named columns, as CSV files hold them |
@@ -34,6 +36,7 @@ pub mod ball;
 pub mod checkpoint;
 pub mod command;
 pub mod conformance;
+pub mod convergence;
 pub mod courses;
 pub mod cpu;
 pub mod diagnosis;
@@ -49,6 +52,7 @@ pub mod provenance;
 pub mod quote;
 pub mod run;
 pub mod scene;
+pub mod seepage;
 pub mod stopped_grain;
 pub mod table;
 pub mod units;

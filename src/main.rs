@@ -13,6 +13,7 @@ use clap_complete::Shell;
 use psmrt::command::check::CheckRequest;
 use psmrt::command::conformance::ConformanceCommand;
 use psmrt::command::pack::PackRequest;
+use psmrt::command::permeability::PermeabilityRequest;
 use psmrt::command::plan::{PlanRequest, Wanted};
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
@@ -129,6 +130,33 @@ Example:
         #[command(flatten)]
         engine: EngineArguments,
     },
+    /// Runs a scene along its flow, or along three axes, and says how permeable its bed is
+    #[command(
+        after_help = "Each run is an ordinary one, in a folder of its own inside DIR; its records make way for one of permeability.
+
+Examples:
+  psmrt permeability docs/sand.toml
+  psmrt permeability docs/sand.toml --tensor
+  psmrt permeability docs/sand.toml --refine 2 --out out/sand"
+    )]
+    Permeability {
+        /// Scene file (TOML)
+        scene: PathBuf,
+        /// Drives the fluid along x, y and z in turn: tensor and principal values of a periodic domain
+        #[arg(long)]
+        tensor: bool,
+        /// Computes on three grids, the finest N times as fine: Richardson's extrapolation and the GCI
+        #[arg(long, value_name = "N", value_parser = command::permeability::refinement)]
+        refine: Option<usize>,
+        /// Folder for the runs, empty or absent [default: out/<name of the scene>-permeability, numbered]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Changes a value of the scene; can be given several times
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
+    },
     /// Now `cargo validate report`
     #[command(hide = true)]
     Report(Former),
@@ -225,6 +253,11 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
         Command::Plan { scene, error, write, set, engine } => {
             let set = engine.added_to(set)?;
             command::plan::plan(&PlanRequest { scene, set, error, write, json })
+        }
+        Command::Permeability { scene, tensor, refine, out, set, engine } => {
+            let set = engine.added_to(set)?;
+            let request = PermeabilityRequest { scene, set, out, tensor, refine, json };
+            command::permeability::permeability(&request)
         }
         Command::Conformance { command } => command::conformance::conformance(&command, json),
         Command::Oracle { command } => {

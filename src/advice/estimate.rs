@@ -7,13 +7,11 @@
 //! | `disk.rs` | how much it will write |
 //! | `models.rs` | which models are on, each with the reason |
 //! | `grains.rs` | both for free grains, and what their warnings rest on |
-//! | `spheres.rs` | the spheres of a scene, and how much of each the domain holds |
-//! | `bed.rs` | where they lie densest |
+//! | `seepage.rs` | gradient, Re and time to steadiness of a bed that fluid seeps through |
 //! | `velocity.rs`, `mapped.rs` | how fast it will be, and with which map of stability it compares |
 //! | `speed.rs` | how long it takes, measured on its first steps |
 //! | `warnings.rs`, `warnings/`, `warning.rs` | what looks risky, one topic a file |
 
-pub(crate) mod bed;
 pub mod disk;
 pub(crate) mod grains;
 pub(crate) mod mapped;
@@ -21,8 +19,8 @@ pub mod memory;
 mod models;
 mod number;
 mod numbers;
+mod seepage;
 pub mod speed;
-pub(crate) mod spheres;
 pub(crate) mod velocity;
 pub(crate) mod warning;
 pub(crate) mod warnings;
@@ -32,5 +30,5 @@ pub use self::number::Number;
 pub use self::numbers::numbers;
 pub use self::speed::calibrate;
 pub use self::warning::Warning;
-pub(crate) use self::warnings::accuracy::subject;
+pub(crate) use self::warnings::accuracy::{outlook, subject};
 pub use self::warnings::warnings;

@@ -2,19 +2,21 @@
 
 use std::io::Write;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use psmrt_report::Figure;
 use serde_json::{Value, json};
 
+use super::conclusions::conclusions;
 use super::progress::ProgressLine;
 use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, summary, write};
 use crate::advice::estimate::{Warning, disk, operator, warnings};
 use crate::checkpoint::Progress;
 use crate::engine::Coupled;
+use crate::exact::Comparison;
 use crate::output::folder::RunFolder;
 use crate::output::{atomic, bed_plots, csv, grain_plots, plot};
 use crate::run::{End, run as run_scene};
@@ -27,23 +29,35 @@ const FINISHED: [&str; 3] = ["steady", "not steady", "limit"];
 /// Exit code after a second interruption, which does not wait for the state to be saved.
 const INTERRUPTED: i32 = 130;
 
-/// Runs a scene from where `engine` is, with its results in `folder`.
-pub(super) fn execute(
+/// A run that has come to its end.
+pub(super) struct CarriedOut {
+    /// How.
+    pub end: End,
+    /// Beside an exact solution.
+    found: Option<Comparison>,
+    /// What `run.json` says.
+    facts: Value,
+    first_step: u64,
+    seconds: f64,
+}
+
+/// Runs a scene from where `engine` is, with its results in `folder`; says nothing if `quiet` but on the way.
+pub(super) fn carried_out(
     scene: &Scene,
     engine: &mut Coupled,
     folder: &RunFolder,
     resumed: Option<&Progress>,
-    json: bool,
-) -> Result<(), CommandError> {
+    quiet: bool,
+) -> Result<CarriedOut, CommandError> {
     let (start, first_step) = (Instant::now(), engine.steps());
-    if !json {
+    if !quiet {
         warn(scene, folder.path());
     }
     let facts = |engine: &Coupled, state: &str, end: Option<End>| {
         write_facts(scene, engine, folder, (first_step, start), (state, end))
     };
     facts(engine, "running", None)?;
-    let mut progress = ProgressLine::new(scene, json, interruption());
+    let mut progress = ProgressLine::new(scene, quiet, interruption());
     let end = run_scene(scene, engine, folder, resumed, &mut progress);
     drop(progress);
     let end = match end {
@@ -66,12 +80,30 @@ pub(super) fn execute(
     };
     draw_records(scene, path)?;
     // These come last: a run that says that it has finished has all its files.
-    let (word, verdict) = match end {
-        End::Steady { .. } => ("steady", Ok(())),
-        End::NotSteady { .. } => ("not steady", Err(CommandError::NotSteady)),
-        End::Limit | End::Interrupted => ("limit", Ok(())),
+    let word = match end {
+        End::Steady { .. } => "steady",
+        End::NotSteady { .. } => "not steady",
+        End::Limit | End::Interrupted => "limit",
     };
     let facts = facts(engine, word, Some(end))?;
+    Ok(CarriedOut { end, found, facts, first_step, seconds: start.elapsed().as_secs_f64() })
+}
+
+/// Runs a scene as [`carried_out`] does, and says what came of it.
+pub(super) fn execute(
+    scene: &Scene,
+    engine: &mut Coupled,
+    folder: &RunFolder,
+    resumed: Option<&Progress>,
+    json: bool,
+) -> Result<(), CommandError> {
+    let CarriedOut { end, found, facts, first_step, seconds } =
+        carried_out(scene, engine, folder, resumed, json)?;
+    let path = folder.path();
+    let verdict = match end {
+        End::NotSteady { .. } => Err(CommandError::NotSteady),
+        End::Steady { .. } | End::Limit | End::Interrupted => Ok(()),
+    };
     if json {
         let comparison = found.as_ref().map(comparison::to_json);
         let profile = engine.profile().map(|profile| profile::to_json(&profile));
@@ -82,7 +114,6 @@ pub(super) fn execute(
         return verdict;
     }
     let steps = engine.steps();
-    let seconds = start.elapsed().as_secs_f64();
     let updates = (steps - first_step) as f64 * scene.setup.domain.cell_count() as f64;
     say(&format!(
         "{} after {steps} steps ({:.4e} s); {seconds:.2} s of computing, {:.2} million cell updates \
@@ -107,6 +138,9 @@ pub(super) fn execute(
     let last = summary::to_text(scene, engine);
     if !last.is_empty() {
         say(&format!("at the end:\n{last}"));
+    }
+    for found in conclusions(scene, engine, end) {
+        say(&found.text);
     }
     if let Some(trouble) = summary::not_steady(scene, engine, end) {
         say(&trouble);
@@ -143,6 +177,7 @@ fn draw_records(scene: &Scene, folder: &Path) -> Result<(), CommandError> {
                 What::GrainMeans => grain_plots::means(&title, &rows()?),
                 What::ContactMeans => bed_plots::contacts(&title, &rows()?),
                 What::Layers { axis, .. } => bed_plots::layers(&title, axis, &rows()?),
+                What::Permeability { .. } => Some(plot::permeability_record(&title, &rows()?)),
                 What::Walls
                 | What::Fields { .. }
                 | What::Slice { .. }
@@ -171,6 +206,12 @@ pub(super) fn held(folder: RunFolder) -> RunFolder {
 
 /// Becomes true at Ctrl-C (or SIGTERM); the second one ends the process at once.
 pub fn interruption() -> Arc<AtomicBool> {
+    // A command of several runs asks for each, and a handler is set but once.
+    static INTERRUPTED_BY_USER: OnceLock<Arc<AtomicBool>> = OnceLock::new();
+    Arc::clone(INTERRUPTED_BY_USER.get_or_init(watch_for_interruption))
+}
+
+fn watch_for_interruption() -> Arc<AtomicBool> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&interrupted);
     let set = ctrlc::set_handler(move || {
@@ -212,6 +253,9 @@ fn write_facts(
         "warnings": all_warnings(scene, folder.path()),
         "steady": end.map(|end| summary::steady(scene, engine, end)),
         "results": end.map(|_| summary::results(scene, engine)),
+        "conclusions": end.map(|end| -> Vec<Value> {
+            conclusions(scene, engine, end).into_iter().map(|found| found.json).collect()
+        }),
         "files": {
             "csv": "SI units, in the first line of each table; box: means over all cells, solids included",
             "npy": "axes z, y, x and, of vectors, component (x, y, z); cell centres; SI units",

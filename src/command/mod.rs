@@ -2,10 +2,13 @@
 
 pub mod check;
 mod comparison;
+mod conclusions;
 pub mod conformance;
 pub mod execute;
 pub mod info;
 pub mod pack;
+pub mod permeability;
+mod permeability_runs;
 pub mod plan;
 mod plan_text;
 mod profile;

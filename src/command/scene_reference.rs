@@ -98,6 +98,21 @@ In `contact_means` the contacts are those between grains, the coordination numbe
 n the unit normals, and the stress that of `layers`, over the whole domain.
 The files of `contacts` hold a line for each contact, from centre to centre or to the face (`other grain` -1), with its force.
 
+`permeability` is Darcy's law, `k = ρ ν U/(dP/L)`: U is the superficial velocity along the axis, dP/L what drives the
+fluid through the bed per length, as pressure and body force together. Along a periodic axis the body force over the
+whole period acts on the length of the bed; between two open faces it is the drop from one plane of cells to another, over
+the length of the bed between them (the planes lie half of the largest grain outside of the bed, or at the faces). The
+bed reaches along the axis from `bed_low` to `bed_high`: the stretch around the fullest slab, as thick as the largest
+grain, in which such slabs hold at least half as much, where it has a solid fraction of 0.3 or more, holds the volume of
+four grains or more and is 5 % denser than the domain; else the bed is the whole domain. `porosity` is 1 less the volume
+of the grains there over the bed's volume from side to side of the domain, and `diameter` d is Σd³/Σd² (Sauter's
+mean). `hydraulic_gradient` i is dP/L over ρ g and `hydraulic_conductivity` K is k g/ν, g being that of [gravity] and 9.81
+m/s2 where there is none; a darcy is 9.869e-13 m2. `reynolds` is U d/(ν (1 - porosity)), `psi` is
+(dP/L) d porosity³/(ρ U² (1 - porosity)). Beside them what laws for equal spheres give at this porosity and Re:
+Kozeny & Carman's with 180, Beetstra et al. (2007) and Tang et al. (2015). Where Re is above 1 inertia counts, and k is
+that at this Re only. All are values of now: of a flow that is not steady yet, or of grains that move, they are no
+property of the bed. Before anything drives the flow k is not a number (`NaN`), and before it moves psi is not finite.
+
 ";
 
 const REFERENCE_HEAD: &str = "# Scene files, key by key

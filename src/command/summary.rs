@@ -3,13 +3,14 @@
 use serde_json::{Map, Value as Json, json};
 
 use crate::engine::Coupled;
-use crate::output::records::{box_row, force_row, profile_rows};
+use crate::output::records::{box_row, force_row, profile_rows, seepage_now};
 use crate::output::walls::{self, FaceForces};
 use crate::output::{contacts, grain_means};
 use crate::run::End;
 use crate::run::steady::value_of;
 use crate::scene::columns::{
     BOX_COLUMNS, CONTACT_MEAN_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS,
+    PERMEABILITY_COLUMNS,
 };
 use crate::scene::{Scene, What};
 
@@ -23,6 +24,10 @@ pub(super) fn results(scene: &Scene, engine: &Coupled) -> Json {
             What::GrainMeans => pairs(&GRAIN_MEAN_COLUMNS, &grain_means::row(scene, engine)),
             What::ContactMeans => pairs(&CONTACT_MEAN_COLUMNS, &contacts::row(scene, engine)),
             What::Loads => pairs(&FORCE_COLUMNS, &force_row(scene, engine)),
+            What::Permeability { axis, si_gravity } => {
+                let found = seepage_now(scene, engine, (*axis, *si_gravity));
+                pairs(&PERMEABILITY_COLUMNS, &found.row())
+            }
             What::Profile { axis, through } => {
                 let rows = profile_rows(scene, engine, *axis, *through);
                 let speed = rows.iter().map(|row| row[2].hypot(row[3]).hypot(row[4]));
@@ -64,6 +69,14 @@ pub(super) fn to_text(scene: &Scene, engine: &Coupled) -> String {
                 format!(
                     "mean velocity of the free grains {} m/s, {contacts} contacts, largest overlap {overlap:.1e} diameters",
                     vector([row[3], row[4], row[5]])
+                )
+            }
+            What::Permeability { axis, si_gravity } => {
+                let found = seepage_now(scene, engine, (*axis, *si_gravity));
+                format!(
+                    "superficial velocity {:.4e} m/s, hydraulic gradient {:.4e}",
+                    found.si_velocity,
+                    found.hydraulic_gradient()
                 )
             }
             What::Loads => format!("force on all grains {} N", vector(force_row(scene, engine))),

@@ -3,7 +3,7 @@
 use psmrt_report::{Axis, Figure, Series};
 
 use crate::exact::{Comparison, PlanePoiseuille};
-use crate::scene::columns::BOX_COLUMNS;
+use crate::scene::columns::{BOX_COLUMNS, PERMEABILITY_COLUMNS};
 
 /// The profile of a run over the exact one, with what is left below.
 pub fn profile(title: &str, exact: &PlanePoiseuille, comparison: &Comparison) -> Figure {
@@ -49,6 +49,20 @@ pub fn box_record(title: &str, rows: &[Vec<f64>]) -> Figure {
     for (number, column) in BOX_COLUMNS.iter().enumerate().filter(|(_, c)| c.unit == "m/s") {
         figure =
             figure.with(Series::line(column.name.replace('_', " "), over_time(2 + number, 1e3)));
+    }
+    figure
+}
+
+/// Rows with time first: the permeability over time, with what laws give.
+pub fn permeability_record(title: &str, rows: &[Vec<f64>]) -> Figure {
+    let mut figure = Figure::new(title, Axis::linear("time (s)"), Axis::linear("k (um2)"));
+    // Time and step come before the columns.
+    for (number, column) in PERMEABILITY_COLUMNS.iter().enumerate().filter(|(_, c)| c.unit == "m2")
+    {
+        // There is none before anything drives the flow.
+        let known = rows.iter().filter(|row| row[2 + number].is_finite());
+        let points = known.map(|row| (row[0], 1e12 * row[2 + number])).collect();
+        figure = figure.with(Series::line(column.name.replace('_', " "), points));
     }
     figure
 }

@@ -12,9 +12,10 @@ use super::{between, contacts, grain_means, layers, snapshots, walls};
 use crate::engine::{Block, CellState, Coupled};
 use crate::scene::columns::{
     BOX_COLUMNS, CONTACT_MEAN_COLUMNS, Column, GRAIN_MEAN_COLUMNS, LAYER_COLUMNS, LOAD_COLUMNS,
-    PROFILE_COLUMNS, WALL_COLUMNS,
+    PERMEABILITY_COLUMNS, PROFILE_COLUMNS, WALL_COLUMNS,
 };
 use crate::scene::{Record, Scene, What, names};
+use crate::seepage::permeability::{Seepage, seepage};
 
 /// Takes one record.
 #[derive(Debug)]
@@ -83,7 +84,7 @@ impl Recorder {
             table.add(&[&now, start, &values].concat())
         };
         match &self.record.what {
-            What::Box | What::GrainMeans | What::ContactMeans => {
+            What::Box | What::GrainMeans | What::ContactMeans | What::Permeability { .. } => {
                 self.watched = watched_row(&self.record.what, scene, engine);
                 add(&[], self.watched.as_deref().unwrap_or_default())?;
             }
@@ -141,6 +142,7 @@ pub fn columns(record: &Record) -> Option<Vec<Column>> {
         What::Layers { .. } => &LAYER_COLUMNS,
         What::Walls => &WALL_COLUMNS,
         What::ContactMeans => &CONTACT_MEAN_COLUMNS,
+        What::Permeability { .. } => &PERMEABILITY_COLUMNS,
         What::Fields { .. } | What::Slice { .. } | What::Grains | What::Contacts => return None,
     };
     let first = [Column::new("time", "s"), Column::new("step", "")];
@@ -191,6 +193,9 @@ pub fn watched_row(what: &What, scene: &Scene, engine: &Coupled) -> Option<Vec<f
         What::GrainMeans => Some(grain_means::row(scene, engine).to_vec()),
         What::Loads => Some(force_row(scene, engine).to_vec()),
         What::ContactMeans => Some(contacts::row(scene, engine).to_vec()),
+        What::Permeability { axis, si_gravity } => {
+            Some(seepage_now(scene, engine, (*axis, *si_gravity)).row().to_vec())
+        }
         What::Profile { .. }
         | What::Layers { .. }
         | What::Walls
@@ -199,6 +204,12 @@ pub fn watched_row(what: &What, scene: &Scene, engine: &Coupled) -> Option<Vec<f
         | What::Grains
         | What::Contacts => None,
     }
+}
+
+/// The bed and the flow through it along an axis, with a gravity for heads (m/s2): what `permeability` has.
+pub fn seepage_now(scene: &Scene, engine: &Coupled, flow: (usize, f64)) -> Seepage {
+    let [_, x, y, z, _] = box_row(scene, engine);
+    seepage(scene, engine, flow, [x, y, z][flow.0])
 }
 
 /// The values of the columns of a profile along `axis` through a point (in cells): at each centre of a cell along

@@ -48,7 +48,8 @@ pub fn take(record: &Record, scene: &Scene, engine: &Coupled, folder: &Path) -> 
         | What::GrainMeans
         | What::Layers { .. }
         | What::Walls
-        | What::ContactMeans => return Ok(()),
+        | What::ContactMeans
+        | What::Permeability { .. } => return Ok(()),
     };
     let times: Vec<u64> = match record.interval {
         OutputInterval::Every(interval) => (0..=step / interval).map(|i| i * interval).collect(),

@@ -136,8 +136,28 @@ pub const CONTACT_MEAN_COLUMNS: [Column; 15] = [
     Column::new("stress_yz", "Pa"),
 ];
 
+/// The columns of a record of kind `permeability`, after time and step.
+pub const PERMEABILITY_COLUMNS: [Column; 16] = [
+    Column::new("superficial_velocity", "m/s"),
+    Column::new("pressure_gradient", "Pa/m"),
+    Column::new("hydraulic_gradient", ""),
+    Column::new("permeability", "m2"),
+    Column::new("permeability_darcy", "darcy"),
+    Column::new("hydraulic_conductivity", "m/s"),
+    Column::new("k_over_d2", ""),
+    Column::new("porosity", ""),
+    Column::new("bed_low", "m"),
+    Column::new("bed_high", "m"),
+    Column::new("diameter", "m"),
+    Column::new("reynolds", ""),
+    Column::new("psi", ""),
+    Column::new("kozeny_carman", "m2"),
+    Column::new("beetstra", "m2"),
+    Column::new("tang", "m2"),
+];
+
 /// The records that are tables: kind and columns, after time and step.
-pub fn tables() -> [(&'static str, &'static [Column]); 7] {
+pub fn tables() -> [(&'static str, &'static [Column]); 8] {
     [
         ("box", &BOX_COLUMNS),
         ("profile", &PROFILE_COLUMNS),
@@ -146,5 +166,6 @@ pub fn tables() -> [(&'static str, &'static [Column]); 7] {
         ("layers", &LAYER_COLUMNS),
         ("walls", &WALL_COLUMNS),
         ("contact_means", &CONTACT_MEAN_COLUMNS),
+        ("permeability", &PERMEABILITY_COLUMNS),
     ]
 }

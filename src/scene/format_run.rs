@@ -13,10 +13,11 @@ pub struct RecordSection {
     /// Name of the record and of its file: letters, digits, `-` and `_`.
     pub name: String,
     /// `box` (means over the domain, with the superficial velocity), `profile` (values along a line), `loads` (position,
-    /// motion, and hydrodynamic force and torque of each grain), `grain_means` (means over the free grains), `layers`
-    /// (porosity, pressure, flow and stresses of grains by layers), `walls` (forces on the faces), `contact_means` (fabric and
-    /// stress), `contacts` (the network of contacts, for ParaView), `slice` (a
-    /// picture of a plane), `fields` (all cells) or `grains` (all grains, for ParaView). The superficial velocity is
+    /// motion, and hydrodynamic force and torque of each grain), `grain_means` (means over the free grains), `permeability`
+    /// (of a bed at rest that fluid flows through, with what laws say of it), `layers` (porosity, pressure, flow and stresses
+    /// of grains by layers), `walls` (forces on the faces), `contact_means` (fabric and stress), `contacts` (the network of
+    /// contacts, for ParaView), `slice` (a picture of a plane), `fields` (all cells) or `grains` (all grains, for ParaView). The
+    /// superficial velocity is
     /// the mass flux over the fluid's density, averaged over all cells, those in grains included; the mass flux is the
     /// mean of the momentum before and after a collision. The first row holds the values at the start.
     pub kind: RecordKind,
@@ -25,7 +26,8 @@ pub struct RecordSection {
     /// Steps between rows.
     pub every_steps: Option<i64>,
     /// With `profile`: the axis along which the line runs; with `slice`: the axis that the plane is
-    /// normal to; with `layers`: the axis along which they follow one another.
+    /// normal to; with `layers`: the axis along which they follow one another; with `permeability`: the axis of the flow,
+    /// which may be absent where it goes along one axis only.
     pub axis: Option<AxisName>,
     /// With `profile` and `slice`: a point on the line or plane, m; the middle of the domain where absent. Between
     /// the centres of cells (for instance in the middle of an even number of them) values are interpolated linearly from
@@ -71,6 +73,9 @@ pub enum RecordKind {
     ContactMeans,
     /// The network of contacts of the free grains, each with its force.
     Contacts,
+    /// Permeability of a bed that fluid flows through, driven along a periodic axis by a body force or between two open
+    /// faces; its porosity, Re and psi, and what laws give at these.
+    Permeability,
 }
 
 /// What a picture shows.
@@ -132,7 +137,7 @@ pub struct StopSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SteadySection {
-    /// Name of a record of kind `box`, `grain_means` or `loads`.
+    /// Name of a record of kind `box`, `grain_means`, `loads` or `permeability`.
     pub record: String,
     /// One of its columns, for example `superficial_velocity_x`; of `loads` a component of force, summed over all
     /// grains.

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `source.rs`, `path.rs` | the text, and where each key stands |
 //! | `changes.rs` | `--set` |
+//! | `edit.rs` | changes of the text that the program makes |
 //! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_run.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
 //! | `shape.rs` | sections, keys and types as the schema has them |
@@ -14,6 +15,7 @@
 mod changes;
 pub mod check;
 pub mod columns;
+pub(crate) mod edit;
 pub mod format;
 pub mod format_free;
 pub mod format_grains;

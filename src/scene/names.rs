@@ -65,7 +65,8 @@ pub fn all(records: &[Record], lists: &[Attachment], compares: bool) -> Vec<Made
             | What::Loads
             | What::GrainMeans
             | What::Layers { .. }
-            | What::ContactMeans => {
+            | What::ContactMeans
+            | What::Permeability { .. } => {
                 made.push(file(by, table(name)));
                 made.push(file(by, picture(name)));
             }

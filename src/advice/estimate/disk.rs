@@ -86,7 +86,7 @@ fn at_a_time(scene: &Scene, what: &What, columns: usize) -> f64 {
     let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
     let row = columns as f64 * TEXT_NUMBER;
     match what {
-        What::Box | What::GrainMeans | What::ContactMeans => row,
+        What::Box | What::GrainMeans | What::ContactMeans | What::Permeability { .. } => row,
         What::Layers { count, .. } => row * *count as f64,
         What::Walls => row * FACES,
         What::Contacts => HEADS + CONTACT_LINE * CONTACTS_OF_GRAIN * solids,

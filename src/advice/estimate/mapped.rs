@@ -2,11 +2,11 @@
 
 use psmrt_reference::domain::Face;
 
-use super::bed::{DENSE, bed};
-use super::spheres::solid_fraction;
 use super::velocity::{si_velocity, superficial};
 use crate::advice::stability::limits::Measured;
 use crate::scene::Scene;
+use crate::seepage::bed::{DENSE, bed};
+use crate::seepage::spheres::solid_fraction;
 
 /// The flow of the maps that a scene is compared with, in words too, and how fast it is: cells per step, and where
 /// that comes from. `None` if no velocity is known.

@@ -60,6 +60,10 @@ fn of_record(scene: &Scene, what: &What) -> u64 {
     match *what {
         // The momentum of each cell.
         What::Box => 24 * nx * ny * nz,
+        // And the cells of a plane.
+        What::Permeability { axis, .. } => {
+            24 * nx * ny * nz + (state + 8) * nx * ny * nz / [nx, ny, nz][axis]
+        }
         // All values, and of a plane at a time the cells and their numbers.
         What::Fields { .. } => BYTES_OF_FIELDS * nx * ny * nz + (state + 8) * nx * ny,
         // Cells, values, and the picture as text.

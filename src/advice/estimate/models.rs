@@ -76,6 +76,7 @@ pub fn models(scene: &Scene) -> Vec<String> {
             What::Walls => "forces on the faces",
             What::ContactMeans => "means over the contacts of the free grains",
             What::Contacts => "the network of contacts",
+            What::Permeability { .. } => "permeability of the bed",
         };
         let interval = match record.interval {
             OutputInterval::Every(steps) => {

@@ -2,15 +2,15 @@
 
 use psmrt_reference::domain::Face;
 
-use super::bed::bed;
 use super::number::{Number, number};
-use super::spheres::{diameters, solid_fraction};
 use super::velocity::si_velocity;
 use super::warnings::accuracy::{outlook, subject};
-use super::{grains, memory};
+use super::{grains, memory, seepage};
 use crate::advice::plan::predict::Outside;
 use crate::engine::EngineName;
 use crate::scene::Scene;
+use crate::seepage::bed::bed;
+use crate::seepage::spheres::{diameters, solid_fraction};
 
 /// The length for the Reynolds number, m, and what it is.
 fn si_length(scene: &Scene) -> (f64, &'static str) {
@@ -85,6 +85,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
         );
         numbers.push(number("solid fraction there", bed.fraction, "", note));
     }
+    numbers.extend(seepage::numbers(scene));
     numbers.extend(predicted_error(scene));
     numbers.extend(grains::numbers(scene));
     let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision)).word();

@@ -6,9 +6,9 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
 
 use super::grains;
-use super::spheres::{diameters, spheres};
 use crate::advice::plan::drag::{Drag, drag};
 use crate::scene::Scene;
+use crate::seepage::spheres::{diameters, spheres};
 
 /// The largest velocity that the scene names or that its forces will drive, m/s, and where it comes from.
 pub(crate) fn si_velocity(scene: &Scene) -> Option<(f64, String)> {

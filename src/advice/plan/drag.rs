@@ -3,9 +3,9 @@
 use psmrt_reference::domain::Face;
 
 use crate::advice::coefficients::curve;
-use crate::advice::estimate::bed::{Bed, bed};
-use crate::advice::estimate::spheres::{solid_fraction, spheres};
 use crate::scene::Scene;
+use crate::seepage::bed::{Bed, bed};
+use crate::seepage::spheres::{solid_fraction, spheres};
 use crate::table::TableError;
 
 /// Drag over Stokes' drag, at no Reynolds number.

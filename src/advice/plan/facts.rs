@@ -11,11 +11,11 @@ use super::drag::{Drag, drag};
 use super::duct::Duct;
 use crate::advice::estimate::grains::free;
 use crate::advice::estimate::mapped::mapped;
-use crate::advice::estimate::spheres::spheres;
 use crate::advice::estimate::velocity::si_velocity;
 use crate::advice::stability::limits::Measured;
 use crate::advice::tradeoff::model::SolidMethod;
 use crate::scene::Scene;
+use crate::seepage::spheres::spheres;
 use crate::table::TableError;
 
 /// What limits the accuracy of a scene.

@@ -24,6 +24,7 @@ mod maker;
 mod mirrors;
 pub(crate) mod neighbours;
 pub(crate) mod numbers;
+pub mod permeability;
 pub mod records;
 mod solid;
 pub mod stop;
@@ -80,7 +81,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     setup.solid_phase = solid::solid_phase(file.solid.as_ref(), list.solids(), free.is_some())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
     implicit::check(&setup, free.as_ref())?;
-    let records = records::records(&file.records, &setup, free.is_some(), &units)?;
+    let records = records::records(&file.records, &setup, free.as_ref(), &units)?;
     let stop = stop::stop(&file.stop, &records, &units)?;
     let exact = match file.compare.as_ref().map(|section| section.exact) {
         Some(ExactName::PlanePoiseuille) => Some(

@@ -5,9 +5,10 @@ use std::fmt;
 use psmrt_reference::domain::Domain;
 use psmrt_reference::setup::Setup;
 
-use super::Trouble;
+use super::free::FreePart;
 use super::grains::Attachment;
 use super::numbers::{absent, count, finite, needed, steps};
+use super::{Trouble, permeability};
 use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
 use crate::scene::names::{self, Made, MadeBy};
 use crate::units::Units;
@@ -72,6 +73,13 @@ pub enum What {
     ContactMeans,
     /// All contacts of the free grains, a file each time.
     Contacts,
+    /// Permeability of a bed.
+    Permeability {
+        /// Axis of the flow: 0, 1 or 2.
+        axis: usize,
+        /// Gravity that heads are taken with, m/s2.
+        si_gravity: f64,
+    },
 }
 
 /// How often a record is taken.
@@ -110,7 +118,7 @@ impl AxisName {
 pub(super) fn records(
     sections: &[RecordSection],
     setup: &Setup,
-    free: bool,
+    free: Option<&FreePart>,
     units: &Units,
 ) -> Result<Vec<Record>, Trouble> {
     let mut records: Vec<Record> = Vec::new();
@@ -151,7 +159,7 @@ fn what(
     section: &RecordSection,
     at: &impl Fn(&str) -> String,
     setup: &Setup,
-    free: bool,
+    free: Option<&FreePart>,
     units: &Units,
 ) -> Result<What, Trouble> {
     if section.kind != RecordKind::Fields {
@@ -163,7 +171,7 @@ fn what(
         return Err(Trouble::new(at("kind"), problem, "add [[grains]], or remove this record"));
     }
     let of_free = [RecordKind::GrainMeans, RecordKind::ContactMeans, RecordKind::Contacts];
-    if of_free.contains(&section.kind) && !free {
+    if of_free.contains(&section.kind) && free.is_none() {
         let problem = "the scene has no free grains to record";
         let remedy = "add `motion = \"free\"` to grains, or remove this record";
         return Err(Trouble::new(at("kind"), problem, remedy));
@@ -174,8 +182,8 @@ fn what(
     }
     if section.kind != RecordKind::Layers {
         absent(&at("layers"), section.layers.as_ref(), "records of kind `layers`")?;
-        if !has_point {
-            let belongs = "records of kind `profile`, `slice` and `layers`";
+        if !has_point && section.kind != RecordKind::Permeability {
+            let belongs = "records of kind `profile`, `slice`, `layers` and `permeability`";
             absent(&at("axis"), section.axis.as_ref(), belongs)?;
         }
     }
@@ -214,6 +222,10 @@ fn what(
         RecordKind::Walls => walls(&at("kind"), &setup.domain)?,
         RecordKind::ContactMeans => What::ContactMeans,
         RecordKind::Contacts => What::Contacts,
+        RecordKind::Permeability => {
+            let (axis, si_gravity) = permeability::flow(at, section.axis, setup, free, units)?;
+            What::Permeability { axis, si_gravity }
+        }
         RecordKind::Fields => {
             let formats = section.formats.clone().unwrap_or_else(|| vec![FieldFormat::Vti]);
             if formats.is_empty() {

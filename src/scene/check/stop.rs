@@ -5,6 +5,7 @@ use super::numbers::{count, steps};
 use super::records::{OutputInterval, Record, What};
 use crate::scene::columns::{
     BOX_COLUMNS, CONTACT_MEAN_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS,
+    PERMEABILITY_COLUMNS,
 };
 use crate::scene::format_run::{SteadySection, StopSection};
 use crate::units::Units;
@@ -21,9 +22,10 @@ pub struct Stop {
 /// A steady-state criterion: what a column has still to go is estimated to be less than `tolerance`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
-    /// Number of the record, of kind [`What::Box`], [`What::GrainMeans`], [`What::ContactMeans`] or [`What::Loads`].
+    /// Number of the record, of kind [`What::Box`], [`What::GrainMeans`], [`What::ContactMeans`], [`What::Loads`] or
+    /// [`What::Permeability`].
     pub record: usize,
-    /// Number of the column in [`BOX_COLUMNS`], [`GRAIN_MEAN_COLUMNS`] or, summed over all grains,
+    /// Number of the column in [`BOX_COLUMNS`], [`GRAIN_MEAN_COLUMNS`], [`PERMEABILITY_COLUMNS`] or, summed over all grains,
     /// [`FORCE_COLUMNS`].
     pub column: usize,
     /// Largest distance from the final value, relative.
@@ -84,13 +86,15 @@ fn can_be_steady(record: &Record) -> bool {
 fn unfit(named: Option<&Record>, records: &[Record]) -> (String, String) {
     let fit: Vec<_> = records.iter().filter(|r| can_be_steady(r)).map(|r| &r.name).collect();
     let others = match fit.is_empty() {
-        true => "add one of kind `box`, `grain_means` or `loads` with `every_steps = 100`, say",
+        true => {
+            "add one of kind `box`, `grain_means`, `loads` or `permeability` with `every_steps = 100`, say"
+        }
         false => &format!("those that can become steady are: {fit:?}"),
     };
     let (problem, remedy) = match named {
         None => ("there is no record of that name", others),
         Some(record) if columns(record).is_none() => {
-            ("that record is not of kind `box`, `grain_means` or `loads`", others)
+            ("that record is not of kind `box`, `grain_means`, `loads` or `permeability`", others)
         }
         Some(_) => (
             "that record is taken only once, at the end: steady is what no longer changes from row \
@@ -120,6 +124,7 @@ fn columns(record: &Record) -> Option<&'static [Column]> {
         What::GrainMeans => Some(&GRAIN_MEAN_COLUMNS),
         What::Loads => Some(&FORCE_COLUMNS),
         What::ContactMeans => Some(&CONTACT_MEAN_COLUMNS),
+        What::Permeability { .. } => Some(&PERMEABILITY_COLUMNS),
         What::Profile { .. }
         | What::Layers { .. }
         | What::Walls

@@ -86,6 +86,8 @@ pub const BAD: &[Bad] = &[
     Bad("diameter = 2e-4\n", "", "grains[0].diameter", "in m"),
     Bad("centre = [3e-4, 2.5e-4, 2.5e-4]\n", "", "grains[0].centre", "in m"),
     Bad("axis = \"x\"\n", "", "records[1].axis", "profiles, slices and layers need it"),
+    Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\nkind = \"permeability\"", "records[0].kind", "grain 1 moves as prescribed"),
+    Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\naxis = \"x\"\nkind = \"box\"", "records[0].axis", "`layers` and `permeability`"),
     Bad("spin = [0.0, 1.0, 0.0]\n", "", "grains[1].motion", "rad/s"),
     Bad("samples = 4\n", "", "solid.samples", "sampled"),
     Bad("time = 0.01\n", "", "stop", "`steps`"),

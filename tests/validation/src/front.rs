@@ -9,7 +9,7 @@ use psmrt::table::Table;
 use psmrt_report::{Headline, Picture};
 
 use crate::cases::{BED_LAWS, CaseError, drag_by_grid, in_open_water};
-use crate::convergence::convergence;
+use psmrt::convergence::convergence;
 
 /// One number: the reference, and psmrt's value on grids from coarse to fine.
 struct Number {

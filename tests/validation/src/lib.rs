@@ -8,7 +8,6 @@
 //! | [`stability`] | maps of where the method survives and where it is right |
 //! | [`tradeoff`] | speed for accuracy, measured |
 //! | [`front`] | the numbers that the report opens with |
-//! | [`convergence`] | how uncertain a result is, by three grids |
 //! | [`history`] | what the committed reports found |
 //! | [`command`] | the commands of `cargo validate` |
 //! | [`failure`] | how these fail |
@@ -18,7 +17,6 @@
 
 pub mod cases;
 pub mod command;
-pub mod convergence;
 pub mod failure;
 pub mod front;
 pub mod history;

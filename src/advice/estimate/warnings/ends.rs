@@ -3,9 +3,9 @@
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::lattice::CS2;
 
-use crate::advice::estimate::spheres::solid_fraction;
 use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
+use crate::seepage::spheres::solid_fraction;
 
 /// How much shorter a channel is at each pressure face, in widths: fitted. Plane channels of 1 to 4 widths at 8
 /// to 32 cells per width give 0.051 where the walls are placed exactly, whatever tau (`tests/oracle/boundaries.rs`),

@@ -2,9 +2,9 @@
 //! something is.
 
 use super::accuracy::{Outlook, outlook};
-use crate::advice::estimate::spheres::spheres;
 use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
+use crate::seepage::spheres::spheres;
 use psmrt_reference::partial_saturation::SolidOperator;
 
 /// Cells per diameter from which on the operator is within 7 % at relaxation times up to 1, with d'Humières' rates and

@@ -9,9 +9,9 @@ use psmrt_reference::collision::Collision;
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::lattice::{CS2, Vec3, viscosity};
 
-use crate::advice::estimate::spheres::{solid_fraction, spheres};
 use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
+use crate::seepage::spheres::{solid_fraction, spheres};
 
 /// A start that misses the inlet's velocity by less than this part of it is not worth a word.
 const SMALL: f64 = 0.01;

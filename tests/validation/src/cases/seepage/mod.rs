@@ -3,7 +3,6 @@
 pub(super) mod bed;
 pub(super) mod figures;
 pub(super) mod inlet;
-pub(super) mod laws;
 pub(super) mod study;
 
 use psmrt_reference::collision::Preset;

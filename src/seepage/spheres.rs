@@ -1,6 +1,7 @@
-//! The spheres of a scene, and how much of each the domain holds.
+//! The spheres of a scene or a set-up, and how much of each the domain holds.
 
 use psmrt_reference::domain::Face;
+use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Shape, Solid};
 
 use crate::scene::Scene;
@@ -8,7 +9,12 @@ use crate::scene::Scene;
 /// The solids as spheres: solid, radius in cells (of the sphere of its volume, if it is of given cells), and the share
 /// of it that lies inside mirror planes (where two of them cut it, as if each did so at every height).
 pub(crate) fn spheres(scene: &Scene) -> Vec<(&Solid, f64, f64)> {
-    let domain = &scene.setup.domain;
+    spheres_of(&scene.setup)
+}
+
+/// The same of a set-up, whose grains may have moved.
+pub(crate) fn spheres_of(setup: &Setup) -> Vec<(&Solid, f64, f64)> {
+    let domain = &setup.domain;
     let share = |solid: &Solid| {
         if !is_sphere(solid) {
             return 1.0;
@@ -21,7 +27,7 @@ pub(crate) fn spheres(scene: &Scene) -> Vec<(&Solid, f64, f64)> {
         };
         (0..3).map(along).product()
     };
-    let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
+    let solids = setup.solid_phase.iter().flat_map(|phase| &phase.solids);
     solids.map(|solid| (solid, 0.5 * solid.diameter(), share(solid))).collect()
 }
 

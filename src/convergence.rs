@@ -6,6 +6,7 @@
 //!
 //! ```text
 //!   p = |ln|ε₃₂/ε₂₁| + q(p)|/ln r₂₁,   q(p) = ln[(r₂₁^p - s)/(r₃₂^p - s)],   s = sign(ε₃₂/ε₂₁)
+//!   φ_ext = (r₂₁^p φ₁ - φ₂)/(r₂₁^p - 1)
 //!   GCI = 1.25 |φ₁ - φ₂|/|φ₁|/(r₂₁^p - 1)
 //! ```
 
@@ -22,6 +23,8 @@ pub struct Convergence {
     pub finest: f64,
     /// Uncertainty of that, relative.
     pub gci: f64,
+    /// The result of an infinitely fine grid (Richardson), by the order that the index is taken with.
+    pub extrapolated: f64,
 }
 
 /// The convergence of results on three or more grids: pairs of cells per length and result, the finest last. `None` if
@@ -43,7 +46,9 @@ pub fn convergence(grids: &[(f64, f64)]) -> Option<Convergence> {
     }
     let used = order.clamp(ORDERS[0], ORDERS[1]);
     let gci = 1.25 * (e21 / finest).abs() / (r21.powf(used) - 1.0);
-    Some(Convergence { order, finest, gci })
+    // φ_ext = φ₁ - ε₂₁/(r₂₁^p - 1)
+    let extrapolated = finest - e21 / (r21.powf(used) - 1.0);
+    Some(Convergence { order, finest, gci, extrapolated })
 }
 
 #[cfg(test)]
@@ -55,6 +60,7 @@ mod tests {
         let value = |n: f64| (n, 3.0 + 5.0 / (n * n));
         let found = convergence(&[value(8.0), value(12.0), value(20.0)]).unwrap();
         assert!((found.order - 2.0).abs() < 1e-6, "order {}", found.order);
+        assert!((found.extrapolated - 3.0).abs() < 1e-9, "{}", found.extrapolated);
         // 1.25 times what is left: φ₁ - 3.
         let left = 5.0 / 400.0 / found.finest;
         assert!((found.gci / left - 1.25).abs() < 1e-6, "{} of {left}", found.gci);
@@ -67,6 +73,8 @@ mod tests {
         let found = convergence(&[(1.0, 5.863), (4.0 / 3.0, 5.972), (2.0, 6.063)]).unwrap();
         assert!((found.order - 1.53).abs() < 0.01, "order {}", found.order);
         assert!((found.gci - 0.022).abs() < 0.0005, "GCI {}", found.gci);
+        // The table's φ_ext²¹, 6.1685.
+        assert!((found.extrapolated - 6.1685).abs() < 0.002, "{}", found.extrapolated);
     }
 
     #[test]

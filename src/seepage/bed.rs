@@ -8,9 +8,12 @@
 
 use std::f64::consts::PI;
 
+use psmrt_reference::setup::Setup;
+use psmrt_reference::solids::Solid;
+
 use crate::scene::Scene;
 
-use super::spheres::{share_of, solid_fraction, spheres};
+use super::spheres::{share_of, solid_fraction, spheres, spheres_of};
 
 /// A bed that is told from its domain has at least this solid fraction: looser grains are a cloud, whose drag
 /// does not depend much on how they lie.
@@ -42,15 +45,19 @@ struct Part {
     share: f64,
 }
 
+impl Part {
+    fn new(solid: &Solid, radius: f64, share: f64) -> Self {
+        Part { centre: solid.centre.into(), radius, share }
+    }
+}
+
 /// The bed of a scene, if its grains are dense somewhere and the domain is not as dense everywhere.
 pub(crate) fn bed(scene: &Scene) -> Option<Bed> {
     let domain = &scene.setup.domain;
     let cells = domain.cells().map(|n| n as f64);
-    let mut parts: Vec<Part> = spheres(scene)
-        .into_iter()
-        .map(|(solid, radius, _)| Part { centre: solid.centre.into(), radius, share: 1.0 })
-        .collect();
-    let largest = parts.iter().map(|part| part.radius).fold(0.0, f64::max);
+    let part = |(solid, radius, _): (&Solid, f64, f64)| Part::new(solid, radius, 1.0);
+    let mut parts: Vec<Part> = spheres(scene).into_iter().map(part).collect();
+    let largest = largest_of(&parts);
     if largest == 0.0 {
         return None;
     }
@@ -75,10 +82,55 @@ pub(crate) fn bed(scene: &Scene) -> Option<Bed> {
     }
     let volume: f64 = parts.iter().map(|part| part.share * sphere(part.radius)).sum();
     let fraction = volume / reaches.iter().map(|[low, high]| high - low).product::<f64>();
-    let is_bed = fraction >= DENSE
-        && volume >= FEWEST * sphere(largest)
-        && fraction > DENSER * solid_fraction(scene);
+    let is_bed = is_told(volume, fraction, (largest, solid_fraction(scene)));
     is_bed.then_some(Bed { fraction, reaches })
+}
+
+/// Whether grains of this volume and solid fraction are a bed in a domain with the largest grain and the solid fraction
+/// that follow.
+fn is_told(volume: f64, fraction: f64, (largest, whole): (f64, f64)) -> bool {
+    fraction >= DENSE && volume >= FEWEST * sphere(largest) && fraction > DENSER * whole
+}
+
+/// The stretch of an axis that a bed fills from side to side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Layer {
+    /// From where to where, cells; over an end of a periodic domain it goes on at the other.
+    pub reach: [f64; 2],
+    /// Solid fraction there.
+    pub fraction: f64,
+    /// Whether it is told from the domain: if not, the domain is the bed.
+    pub is_told: bool,
+}
+
+/// The bed of a set-up along one axis, with the grains where they are now and over the whole cross-section; the domain
+/// where no bed is told from it.
+pub(crate) fn layer(setup: &Setup, axis: usize) -> Layer {
+    let domain = &setup.domain;
+    let cells = domain.cells().map(|n| n as f64);
+    let part = |(solid, radius, share): (&Solid, f64, f64)| Part::new(solid, radius, share);
+    let parts: Vec<Part> = spheres_of(setup).into_iter().map(part).collect();
+    let [largest, length] = [largest_of(&parts), cells[axis]];
+    let section = cells.iter().product::<f64>() / length;
+    let periodic = domain.is_periodic(axis);
+    let image = periodic.then_some(length);
+    let volume_within = |reach: [f64; 2]| -> f64 {
+        let inside = |part: &Part| part.share * within(part, axis, reach, image);
+        parts.iter().map(|part| inside(part) * sphere(part.radius)).sum()
+    };
+    let all = parts.iter().map(|part| part.share * sphere(part.radius)).sum::<f64>();
+    let whole = all / section / length;
+    let reach = stretch(&parts, axis, (length, periodic), 2.0 * largest);
+    let volume = volume_within(reach);
+    let fraction = volume / section / (reach[1] - reach[0]);
+    if largest > 0.0 && is_told(volume, fraction, (largest, whole)) {
+        return Layer { reach, fraction, is_told: true };
+    }
+    Layer { reach: [0.0, length], fraction: whole, is_told: false }
+}
+
+fn largest_of(parts: &[Part]) -> f64 {
+    parts.iter().map(|part| part.radius).fold(0.0, f64::max)
 }
 
 fn sphere(radius: f64) -> f64 {
