@@ -4,6 +4,7 @@ pub mod check;
 mod comparison;
 pub mod conformance;
 pub mod execute;
+mod go_on;
 pub mod info;
 pub mod pack;
 pub mod plan;

@@ -72,11 +72,13 @@ pub fn text(
             steps(item);
         }
     }
-    for table in tables(&mut document, "grains") {
-        let Some(file) = table.get("file").and_then(Item::as_str) else { continue };
-        let file = folder.join(file);
+    for copy in &scene.attachments {
+        let Some(item) = crate::scene::find_mut(document.as_item_mut(), &copy.key) else {
+            continue;
+        };
+        let file = folder.join(item.as_str().unwrap_or_default());
         let file = std::path::absolute(&file).unwrap_or(file);
-        table["file"] = value(file.display().to_string());
+        *item = value(file.display().to_string());
     }
     let comment: String = comment.lines().map(|line| format!("# {line}\n")).collect();
     Ok(format!("{comment}\n{document}"))
