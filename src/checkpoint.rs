@@ -85,10 +85,20 @@ pub fn save(
         out.inner.write_all(&digest.to_le_bytes())
     });
     written.map_err(|error| file_error(&path, error))?;
-    for old in list(run.path())?.iter().rev().skip(KEPT) {
+    keep(run, KEPT)?;
+    Ok(path)
+}
+
+/// Removes all checkpoints but the last.
+pub fn keep_newest(run: &RunFolder) -> Result<(), CheckpointError> {
+    keep(run, 1)
+}
+
+fn keep(run: &RunFolder, most: usize) -> Result<(), CheckpointError> {
+    for old in list(run.path())?.iter().rev().skip(most) {
         fs::remove_file(old).map_err(|error| file_error(old, error))?;
     }
-    Ok(path)
+    Ok(())
 }
 
 /// The checkpoints of a run, the oldest first; none if it has no folder for them. Errors if that cannot be
@@ -139,6 +149,19 @@ pub fn load(
     let (_, mut file) = open(path).map_err(|error| file_error(path, error))?;
     engine.load(&mut file).map_err(|error| file_error(path, error))?;
     Ok(header.progress)
+}
+
+/// Checks a checkpoint as [`check`] does, of the scene `was`, then puts an engine that was opened with changed values of
+/// that scene into its state.
+pub fn load_with_changes(
+    path: &Path,
+    run: &RunFolder,
+    was: &Scene,
+    engine: &mut Coupled,
+) -> Result<(), CheckpointError> {
+    check(path, run, was, engine)?;
+    let (_, mut file) = open(path).map_err(|error| file_error(path, error))?;
+    engine.load_with_changes(&mut file).map_err(|error| file_error(path, error))
 }
 
 /// The header, and the file where the engine's state begins.

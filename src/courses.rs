@@ -1,20 +1,25 @@
 //! Where prescribed spheres go. They go straight on, whatever acts on them, so what they meet is known before
 //! they move, exactly and for every engine.
 //!
+//! Those whose motion changes in time are followed step by step (`courses/followed.rs`).
+//!
 //! At periodic faces they come in again on the other side, and `free_outflow` and `pressure` faces are open
 //! to them. All other faces and all spheres that are fixed or prescribed too end their way: when one is
 //! deeper there than a scene may have it at the start, the run stops. (Free grains give way; whether
 //! contacts hold them is looked at in each step: `psmrt_reference::grains::hold`.)
+
+mod followed;
 
 use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::Grain;
 use psmrt_reference::grains::neighbours::candidates;
 use psmrt_reference::grains::setup::PeriodicBox;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::solids::Shape;
+use psmrt_reference::solids::{Shape, Solid};
 
 use crate::scene::Scene;
 use crate::scene::check::neighbours::MAX_OVERLAP;
+use followed::Followed;
 
 /// Keys of the faces, `FACES[axis][side]`.
 const FACES: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
@@ -87,15 +92,19 @@ struct Passage {
     step: u64,
 }
 
-/// The spheres that are not free, where they are at the start.
-fn held(scene: &Scene) -> Vec<(usize, Grain)> {
+/// The spheres that are not free, as those that go straight on were at step 0 if they are where `solids` are at step
+/// `start`.
+fn held(scene: &Scene, start: u64, solids: &[Solid]) -> Vec<(usize, Grain)> {
     let is_free = |number: usize| scene.free.as_ref().is_some_and(|part| part.moves_solid(number));
-    let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids).enumerate();
+    let since = start as f64;
     solids
+        .iter()
+        .enumerate()
         .filter(|&(number, _)| !is_free(number))
         .filter_map(|(number, solid)| match solid.shape {
             Shape::Sphere { radius } => {
-                Some((number, Grain::sphere(solid.centre, radius, 1.0).moving(solid.velocity)))
+                let at_start = solid.centre - since * solid.velocity;
+                Some((number, Grain::sphere(at_start, radius, 1.0).moving(solid.velocity)))
             }
             // They stay, and grains pass through them: contacts are those of spheres.
             Shape::Cells { .. } => None,
@@ -103,11 +112,16 @@ fn held(scene: &Scene) -> Vec<(usize, Grain)> {
         .collect()
 }
 
-/// Each prescribed sphere at each face that it moves to: when it is too deep in it.
-fn passages(scene: &Scene) -> Vec<Passage> {
+/// Each prescribed sphere that goes straight on at each face that it moves to: when it is too deep in it.
+fn passages(scene: &Scene, start: u64, solids: &[Solid]) -> Vec<Passage> {
     let domain = &scene.setup.domain;
     let mut passages = Vec::new();
-    for (number, grain) in held(scene) {
+    let changing = scene.drives.iter().flat_map(|drives| &drives.prescribed);
+    let changes = |number: &usize| changing.clone().any(|all| all.solids.contains(number));
+    for (number, grain) in held(scene, start, solids) {
+        if changes(&number) {
+            continue;
+        }
         for axis in (0..3).filter(|&axis| !domain.is_periodic(axis)) {
             let speed = grain.velocity[axis];
             if speed == 0.0 {
@@ -148,11 +162,16 @@ fn closed(face: &Face) -> Option<&'static str> {
     }
 }
 
-/// Prescribed spheres that leave through open faces within the run: number, face, step.
+/// The solids at the start.
+fn at_start(scene: &Scene) -> &[Solid] {
+    scene.setup.solid_phase.as_ref().map_or(&[], |phase| &phase.solids)
+}
+
+/// Prescribed spheres that go straight on and leave through open faces within the run: number, face, step.
 pub fn leavings(scene: &Scene) -> Vec<(usize, &'static str, u64)> {
     let faces = scene.setup.domain.faces();
     let open = |passage: &Passage| closed(&faces.axis(passage.axis)[passage.side]).is_none();
-    let all = passages(scene).into_iter().filter(open);
+    let all = passages(scene, 0, at_start(scene)).into_iter().filter(open);
     let in_time = all.filter(|passage| passage.step <= scene.stop.steps);
     in_time.map(|p| (p.grain, FACES[p.axis][p.side], p.step)).collect()
 }
@@ -174,21 +193,29 @@ pub struct Lookout {
     known: u64,
     /// The first meeting of a pair, once it is known.
     of_pair: Option<Meeting>,
+    /// Instead of all that, where the motion of some changes.
+    followed: Option<Followed>,
 }
 
 impl Lookout {
-    /// A lookout from step `start` on.
-    pub fn new(scene: &Scene, start: u64) -> Self {
+    /// A lookout from the start of a scene.
+    pub fn from_start(scene: &Scene) -> Self {
+        Self::new(scene, 0, at_start(scene))
+    }
+
+    /// A lookout from step `start` on, at which the solids are so.
+    pub fn new(scene: &Scene, start: u64, solids: &[Solid]) -> Self {
         let domain = &scene.setup.domain;
         let faces = domain.faces();
-        let at_face = passages(scene).into_iter().filter_map(|passage| {
+        let at_face = passages(scene, start, solids).into_iter().filter_map(|passage| {
             let Passage { grain, axis, side, step } = passage;
             let kind = closed(&faces.axis(axis)[side])?;
             let obstacle = Obstacle::Face { name: FACES[axis][side], kind };
             Some(Meeting { step, grain, obstacle })
         });
         let at_face = at_face.min_by_key(|meeting| meeting.step);
-        let (numbers, grains): (Vec<usize>, Vec<Grain>) = held(scene).into_iter().unzip();
+        let (numbers, grains): (Vec<usize>, Vec<Grain>) =
+            held(scene, start, solids).into_iter().unzip();
         let length = |axis: usize| domain.is_periodic(axis).then(|| domain.cells()[axis] as f64);
         let sides = PeriodicBox { lengths: [length(0), length(1), length(2)] };
         let reach = reach(&grains, &sides);
@@ -197,11 +224,16 @@ impl Lookout {
         let window = reach.map_or(u64::MAX, |reach| {
             first_step_beyond(reach / (2.0 * fastest)).saturating_sub(1).max(1)
         });
-        Lookout { at_face, grains, numbers, sides, reach, window, known: start, of_pair: None }
+        let followed = Followed::new(scene, start, solids);
+        let known = start;
+        Lookout { at_face, grains, numbers, sides, reach, window, known, of_pair: None, followed }
     }
 
     /// The first meeting up to `step`, found by looking at `most_work` places of spheres at most.
     pub fn meeting_until(&mut self, step: u64, most_work: u64) -> Option<Meeting> {
+        if let Some(followed) = &mut self.followed {
+            return followed.meeting_until(step, most_work);
+        }
         let mut work = 0;
         while self.of_pair.is_none() && self.known < step && work <= most_work {
             let Some(reach) = self.reach else { break };

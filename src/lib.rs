@@ -23,6 +23,7 @@
 //! | [`lanes`] | vectors of numbers |
 //! | [`table`] | rows of named columns, as CSV files hold them |
 //! | [`units`] | SI units and lattice units |
+//! | [`in_time`] | values that change in time |
 //! | [`input`] | reading of files that the user names |
 //! | [`quote`] | how the user's text stands in messages |
 //! | [`machine`] | what this machine has |
@@ -42,6 +43,7 @@ pub mod cpu;
 pub mod diagnosis;
 pub mod engine;
 pub mod exact;
+pub mod in_time;
 pub mod input;
 pub mod kernel;
 pub mod lanes;

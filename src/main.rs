@@ -84,8 +84,14 @@ Examples:
         after_help = "A run that has finished is left as it is. Nothing is deleted: what a run without a checkpoint has written
 is renamed when it starts again.
 
-Example:
-  psmrt resume out/steel"
+With --set it goes on from the last state with changed values, in a folder of its own (the first is left as it is),
+also if it has finished. What may change: title, stop, records, checkpoint, body_force.acceleration,
+gravity.acceleration, velocity and pressure of faces, velocity and spin of prescribed grains, contact, lubrication.
+stop counts from the very start; records begin anew; files that --set names lie beside the run's scene.toml.
+
+Examples:
+  psmrt resume out/steel
+  psmrt resume out/bed --set stop.time=0.1 --set faces.z_low.pressure=12 --out out/bed_12"
     )]
     Resume {
         /// Folder of the run
@@ -93,6 +99,12 @@ Example:
         /// Another checkpoint than the newest
         #[arg(long, value_name = "FILE")]
         checkpoint: Option<PathBuf>,
+        /// Changes a value of the scene; can be given several times
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
+        /// With --set: folder for the results, empty or absent [default: out/<name of the run>, numbered]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Packs grains and writes them as a list that scenes read
     #[command(after_help = "Examples:
@@ -242,8 +254,9 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
             let set = engine.added_to(set)?;
             command::run::run(&RunRequest { scene, set, out, profile, json })
         }
-        Command::Resume { dir, checkpoint } => {
-            command::resume::resume(&ResumeRequest { folder: dir, checkpoint, json })
+        Command::Resume { dir, checkpoint, set, out } => {
+            psmrt::scene::differ(&set)?;
+            command::resume::resume(&ResumeRequest { folder: dir, checkpoint, set, out, json })
         }
         Command::Pack(request) => command::pack::pack(&request, json),
         Command::Report(_) => Err(CommandError::Moved("report")),

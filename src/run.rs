@@ -72,7 +72,7 @@ pub fn run(
     resumed: Option<&Progress>,
     watcher: &mut dyn Watcher,
 ) -> Result<End, RunError> {
-    let mut run = Run::begin(scene, folder, resumed, engine.steps())?;
+    let mut run = Run::begin(scene, folder, resumed, engine)?;
     let end = match run.advance(engine, resumed.is_none(), watcher) {
         Err(error) if error.misses_a_file() => return Err(run.rescue(engine)),
         end => end?,
@@ -80,6 +80,11 @@ pub fn run(
     if end != End::Interrupted {
         if !folder.is_there() {
             return Err(run.rescue(engine));
+        }
+        // Before what is taken at the end: a run that is killed meanwhile takes it again.
+        if scene.keeps_last_state {
+            run.save(engine)?;
+            checkpoint::keep_newest(folder)?;
         }
         run.finish(engine)?;
         engine.still_works()?;
@@ -116,7 +121,7 @@ impl<'a> Run<'a> {
         scene: &'a Scene,
         folder: &'a RunFolder,
         resumed: Option<&Progress>,
-        start: u64,
+        engine: &Coupled,
     ) -> Result<Self, RunError> {
         folder.prepare(scene)?;
         let path = folder.path();
@@ -133,7 +138,7 @@ impl<'a> Run<'a> {
             }
         };
         let steady = steady::Watch::begin(scene, resumed.and_then(|p| p.steady.as_ref()));
-        let lookout = Lookout::new(scene, start);
+        let lookout = Lookout::new(scene, engine.steps(), &engine.solids());
         Ok(Run { scene, folder, recorders, steady, lookout })
     }
 
@@ -166,6 +171,10 @@ impl<'a> Run<'a> {
     ) -> Result<End, RunError> {
         if from_the_start {
             self.observe(engine)?;
+            // A run that goes on from another's state has no beginning of its own to start again from.
+            if engine.steps() > 0 {
+                self.save(engine)?;
+            }
         }
         let mut saved = Saved { step: engine.steps(), at: Instant::now() };
         loop {

@@ -117,14 +117,18 @@ impl Header {
 /// What a scene was read from.
 fn inputs(scene: &Scene) -> Vec<InputFile> {
     let input = |name: String, bytes: &[u8]| InputFile { name, hash: xxh3_64(bytes) };
-    let lists = scene.attachments.iter().map(|list| input(list.file_name(), &list.bytes));
+    let lists = scene.attachments.iter().map(|list| input(list.file_name.clone(), &list.bytes));
     lists.chain([input(names::SCENE.to_owned(), scene.text.as_bytes())]).collect()
 }
 
 /// A sum of what has been made of a scene, to the last bit of each number.
 fn made(scene: &Scene) -> u64 {
     let Scene { setup, free, initial_velocity, records, stop, .. } = scene;
-    xxh3_64(format!("{setup:?} {free:?} {initial_velocity:?} {records:?} {stop:?}").as_bytes())
+    let mut made = format!("{setup:?} {free:?} {initial_velocity:?} {records:?} {stop:?}");
+    if let Some(drives) = &scene.drives {
+        made.push_str(&format!(" {drives:?}"));
+    }
+    xxh3_64(made.as_bytes())
 }
 
 /// What a run knows of a value that is to become steady (`run/steady.rs`); values as their bits.

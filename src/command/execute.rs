@@ -14,7 +14,7 @@ use super::progress::ProgressLine;
 use super::say::{say, tell};
 use super::{CommandError, comparison, info, profile, summary, write};
 use crate::advice::estimate::{Warning, disk, operator, warnings};
-use crate::checkpoint::Progress;
+use crate::checkpoint::{self, Progress};
 use crate::engine::Coupled;
 use crate::exact::Comparison;
 use crate::output::folder::RunFolder;
@@ -144,6 +144,14 @@ pub(super) fn execute(
     }
     if let Some(trouble) = summary::not_steady(scene, engine, end) {
         say(&trouble);
+    }
+    if let Some(kept) = checkpoint::list(path).ok().and_then(|all| all.last().cloned()) {
+        let size = std::fs::metadata(&kept).map_or(0.0, |facts| facts.len() as f64);
+        say(&format!(
+            "its last state is kept, {} (not with checkpoint.at_end = false); going on: psmrt resume {} --set ...",
+            disk::words(size),
+            path.display()
+        ));
     }
     say(&format!("results in {}", path.display()));
     verdict

@@ -5,6 +5,7 @@ mod comparison;
 mod conclusions;
 pub mod conformance;
 pub mod execute;
+mod go_on;
 pub mod info;
 pub mod pack;
 pub mod permeability;

@@ -91,7 +91,7 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
     // What was left open is what a run would use.
     let engine = engine_of(&scene).kind();
-    let scene = Scene { engine, ..scene };
+    let scene = Scene { engine, ..scene.at_its_strongest().into_owned() };
     let name = request.scene.display();
     let facts = Facts::of(&scene)?
         .map_err(|why| CommandError::Usage(format!("{name} cannot be planned: {why}")))?;

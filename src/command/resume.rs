@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::execute::{execute, held};
+pub use super::go_on::ResumeRequest;
+use super::go_on::{check_origin, go_on};
 use super::say::{say, tell};
 use super::{CommandError, engine, write};
 use crate::checkpoint::{self, CheckpointError, Header, Progress};
@@ -13,17 +15,6 @@ use crate::output::folder::RunFolder;
 use crate::run::{check_tables, set_aside};
 use crate::scene::Scene;
 use crate::scene::names::{FACTS, SCENE};
-
-/// What `psmrt resume` is asked for.
-#[derive(Clone, Debug)]
-pub struct ResumeRequest {
-    /// The folder of the run.
-    pub folder: PathBuf,
-    /// The checkpoint to go on from; the newest where `None`.
-    pub checkpoint: Option<PathBuf>,
-    /// Whether to print one JSON object instead of text.
-    pub json: bool,
-}
 
 /// Resumes a run. One that has finished is left as it is.
 pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
@@ -36,6 +27,15 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
             path.display()
         );
         return Err(CommandError::Resume(problem));
+    }
+    if !request.set.is_empty() {
+        return go_on(request);
+    }
+    if let Some(out) = &request.out {
+        return Err(CommandError::Usage(format!(
+            "--out {}: a run that goes on unchanged goes on in its own folder; leave it out, or change something by --set",
+            out.display()
+        )));
     }
     if let Some(facts) = finished(path)? {
         say_finished(path, &facts, request.json);
@@ -51,6 +51,7 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
     let mut engine = engine(&scene, &file, false)?;
     let progress = go_back(request, &folder, &scene, &mut engine)?;
     if progress.is_none() {
+        check_origin(path)?;
         tell("there is no checkpoint yet: the run starts again from its beginning");
         for moved in write(path, |_| set_aside(&scene, &folder))? {
             tell(&format!("what it had written is set aside as {}", moved.display()));
@@ -84,7 +85,8 @@ fn say_finished(folder: &Path, facts: &Value, json: bool) {
         return;
     }
     say(&format!(
-        "this run has finished ({}) after {} steps: there is nothing to go on with\nresults in {folder}",
+        "this run has finished ({}) after {} steps: there is nothing to go on with\n\
+         (longer, or with other values: psmrt resume {folder} --set stop.steps=... --out DIR)\nresults in {folder}",
         facts["state"].as_str().unwrap_or("at its end"),
         facts["steps"]
     ));

@@ -24,7 +24,10 @@ pub fn reference() -> String {
             .map_or_else(Vec::new, |names| names.iter().filter_map(Value::as_str).collect());
         for (name, key) in node["properties"].as_object().into_iter().flatten() {
             let kind = Kind::of(root, key);
-            if let Kind::Section(inner) | Kind::Sections(inner) = kind {
+            if let Kind::Section(inner)
+            | Kind::Sections(inner)
+            | Kind::InTime { section: inner, .. } = kind
+            {
                 let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
                 // Faces are alike: one table is enough.
                 if !sections.iter().any(|(_, known)| std::ptr::eq(*known, inner)) {

@@ -21,6 +21,7 @@ use psmrt_reference::solids::{Grip, Load, Solid};
 
 use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine, StartError};
 use crate::diagnosis::diagnosed;
+use crate::in_time::Drives;
 use crate::machine::{Beginning, Spent};
 use crate::scene::FreePart;
 
@@ -44,6 +45,8 @@ pub struct Coupled {
     pub(super) grains: Option<Grains>,
     pub(super) guard: Guard,
     pub(super) steps: u64,
+    /// What changes in time, if anything does.
+    pub(super) drives: Option<Drives>,
     /// The first failure while something was observed.
     failure: RefCell<Option<DeviceError>>,
     profile: Option<MovingProfile>,
@@ -72,7 +75,7 @@ impl Coupled {
     pub(super) fn new(fluid: Box<dyn FluidEngine>, grains: Option<Grains>) -> Self {
         let guard = Guard::new(fluid.setup().guard);
         let failure = RefCell::default();
-        Coupled { fluid, grains, guard, steps: 0, failure, profile: None }
+        Coupled { fluid, grains, guard, steps: 0, drives: None, failure, profile: None }
     }
 
     /// The name of the fluid engine, as `--engine` spells it.
@@ -102,19 +105,25 @@ impl Coupled {
     }
 
     /// Makes `count` steps. Errors when the guard finds the state broken, a free grain cannot be moved,
-    /// or the device fails.
+    /// or the device fails. What changes in time changes before each.
     pub fn step(&mut self, count: u64) -> Result<(), EngineStop> {
         let end = self.steps + count;
         let is_free = self.grains.is_some();
         let phase = self.fluid.setup().solid_phase.as_ref();
-        let moves = is_free || phase.is_some_and(|phase| phase.solids.iter().any(Solid::moves));
+        let drives = self.drives.as_ref();
+        let moves = is_free
+            || phase.is_some_and(|phase| phase.solids.iter().any(Solid::moves))
+            || drives.is_some_and(|drives| !drives.prescribed.is_empty());
+        // From then on all stays as it is.
+        let still_from = drives.map_or(f64::NEG_INFINITY, Drives::end);
         let interval = self.fluid.setup().guard.interval.max(1);
         while self.steps < end {
             if self.guard.is_due(self.steps) {
                 self.check()?;
             }
             let next_check = (self.steps / interval + 1) * interval;
-            let now = if moves { 1 } else { end.min(next_check) - self.steps };
+            let changes = self.steps as f64 <= still_from;
+            let now = if moves || changes { 1 } else { end.min(next_check) - self.steps };
             let is_last = self.steps + now == end;
             self.put_into_motion_for_collision()?;
             self.fluid.advance(now, is_free || is_last)?;
@@ -124,6 +133,9 @@ impl Coupled {
             }
             if moves {
                 self.move_solids()?;
+            }
+            if changes {
+                self.put_values_of_now().map_err(DeviceError::new)?;
             }
         }
         Ok(())
@@ -151,25 +163,9 @@ impl Coupled {
         Ok(self.fluid.place_solids(solids)?)
     }
 
-    /// Moves the solids after a step, free or as prescribed.
-    fn move_solids(&mut self) -> Result<(), EngineStop> {
-        let mut solids = self.moved_as_prescribed();
-        self.move_grains(&mut solids)?;
-        Ok(self.fluid.place_solids(solids)?)
-    }
-
-    /// The solids a step later, those that move as prescribed.
-    fn moved_as_prescribed(&self) -> Vec<Solid> {
-        let mut solids = self.solids();
-        for solid in solids.iter_mut().filter(|solid| solid.moves()) {
-            solid.centre += solid.velocity;
-        }
-        solids
-    }
-
     /// Moves the free grains under the loads of the last step, and puts those of `solids` that are grains where these
     /// are now.
-    fn move_grains(&mut self, solids: &mut [Solid]) -> Result<(), EngineStop> {
+    pub(super) fn move_grains(&mut self, solids: &mut [Solid]) -> Result<(), EngineStop> {
         let Some(Grains { moving, part }) = &mut self.grains else { return Ok(()) };
         let loads = match balancing(self.fluid.setup(), moving.settings()) {
             Some(g) => {

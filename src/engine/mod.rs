@@ -12,6 +12,7 @@ mod block;
 mod bytes;
 mod coupled;
 mod cpu;
+mod driven;
 mod fluid;
 pub mod free_state;
 mod name;

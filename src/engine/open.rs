@@ -17,12 +17,12 @@ use crate::scene::{FreePart, Scene};
 
 /// What a fluid starts from.
 pub enum Start<'a> {
-    /// Density and velocity at each cell centre, in equilibrium. Whether its solids are free to move: the cells that
-    /// they cover then start with them even if all are at rest.
+    /// Density and velocity at each cell centre, in equilibrium. Whether its solids are free to move, or will be moved:
+    /// the cells that they cover then start with them even if all are at rest.
     State {
         /// Density and velocity at a cell centre.
         state: &'a dyn Fn(Vec3) -> (f64, Vec3),
-        /// Whether the solids are free.
+        /// Whether the solids are free, or will be moved.
         is_free: bool,
     },
     /// Populations, one set per cell.
@@ -69,7 +69,12 @@ pub fn open(
     }
     let gpu = if name.needs_device() { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
     let state = |_| (1.0, velocity);
-    let mut engine = starting_from(name, &scene.setup, scene.free.as_ref(), gpu.as_ref(), state)?;
+    let is_prescribed = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
+    let whole = (&scene.setup, scene.free.as_ref());
+    let mut engine = begin(name, whole, gpu.as_ref(), state, is_prescribed)?;
+    if let Some(drives) = &scene.drives {
+        engine.follow(drives.clone())?;
+    }
     if profiled {
         engine.keep_profile();
     }
@@ -112,6 +117,17 @@ pub fn starting_from(
     gpu: Option<&Arc<Gpu>>,
     state: impl Fn(Vec3) -> (f64, Vec3),
 ) -> Result<Coupled, StartError> {
+    begin(name, (setup, free), gpu, state, false)
+}
+
+/// The same; `can_move`: whether solids may move that are at rest, and not free.
+fn begin(
+    name: EngineName,
+    (setup, free): (&Setup, Option<&FreePart>),
+    gpu: Option<&Arc<Gpu>>,
+    state: impl Fn(Vec3) -> (f64, Vec3),
+    can_move: bool,
+) -> Result<Coupled, StartError> {
     setup.check()?;
     let mut setup = setup.clone();
     let grains = match free {
@@ -124,7 +140,7 @@ pub fn starting_from(
         }
         None => None,
     };
-    let start = Start::State { state: &state, is_free: grains.is_some() };
+    let start = Start::State { state: &state, is_free: can_move || grains.is_some() };
     Ok(Coupled::new(fluid(name, setup, gpu, &start)?, grains))
 }
 

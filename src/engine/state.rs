@@ -74,6 +74,17 @@ impl Coupled {
             *moving = FreeGrains::going_on_from(domain, (part.setup, state), part.settings, last)
                 .map_err(io::Error::other)?;
         }
-        Ok(())
+        // What changes in time is that of now.
+        self.put_values_of_now().map_err(io::Error::other)
+    }
+
+    /// Takes the state that [`Self::save`] wrote for a scene that differs from this one by the values that drive fluid and
+    /// grains alone: the state is of then, what drives it this scene's. After an error it is of no use.
+    pub fn load_with_changes(&mut self, from: &mut dyn Read) -> io::Result<()> {
+        let (drive, own) = (self.setup().drive(), self.solids());
+        self.load(from)?;
+        self.set_drive(&drive).map_err(io::Error::other)?;
+        self.put_values_of_now().map_err(io::Error::other)?;
+        self.prescribe_as(&own).map_err(io::Error::other)
     }
 }

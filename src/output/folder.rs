@@ -155,7 +155,7 @@ impl RunFolder {
     pub fn keep(&self, scene: &Scene) -> io::Result<()> {
         // The lists come first: a folder with a scene in it is whole.
         for list in &scene.attachments {
-            atomic::write(&self.path.join(list.file_name()), |out| out.write_all(&list.bytes))?;
+            atomic::write(&self.path.join(&list.file_name), |out| out.write_all(&list.bytes))?;
         }
         atomic::write(&self.path.join(SCENE), |out| out.write_all(scene.text.as_bytes()))
     }

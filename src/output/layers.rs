@@ -8,6 +8,7 @@ use psmrt_reference::lattice::Vec3;
 use super::grain_means;
 use crate::engine::{Block, Coupled};
 use crate::scene::Scene;
+use crate::scene::check::permeability::si_gravity;
 
 /// The first cell of each of `count` layers of whole cells, as equal as can be, and the end of the last.
 pub fn bounds(cells: usize, count: usize) -> Vec<usize> {
@@ -26,7 +27,7 @@ pub fn rows(scene: &Scene, engine: &Coupled, axis: usize, count: usize) -> Vec<[
     let grains = GrainLayers::of(engine, axis, &bounds, period);
     let pressures: Vec<f64> = layers.clone().map(|layer| planes.si_pressure(layer)).collect();
     let places: Vec<f64> = layers.clone().map(|layer| middle(&layer) * units.si_dx).collect();
-    let weight = units.si_density * si_gravity(scene);
+    let weight = units.si_density * si_gravity(scene.free.as_ref(), units);
     let driving = engine.setup().body_force.map_or(0.0, |g| g[axis]);
     layers
         .enumerate()
@@ -54,13 +55,6 @@ pub fn rows(scene: &Scene, engine: &Coupled, axis: usize, count: usize) -> Vec<[
             ]
         })
         .collect()
-}
-
-/// The acceleration of gravity that weights are meant by, m/s²: that of the scene, or the usual one.
-fn si_gravity(scene: &Scene) -> f64 {
-    let of_scene = scene.free.as_ref().and_then(|part| part.settings.gravity);
-    let own = of_scene.map(|gravity| gravity.acceleration().norm() * scene.units.si_acceleration());
-    own.filter(|g| *g > 0.0).unwrap_or(9.81)
 }
 
 fn middle(layer: &Range<usize>) -> f64 {

@@ -17,7 +17,7 @@ pub(super) fn rows_of(scene: &Scene, engine: &Coupled, loads: &[Load]) -> Vec<[f
     let mut rows = Vec::new();
     let solids = engine.solids();
     // G Σ B_s
-    let displaced: Vec<Vec3> = match scene.setup.body_force {
+    let displaced: Vec<Vec3> = match engine.body_force_of_last_step() {
         Some(g) => engine.displaced().into_iter().map(|volume| volume * g).collect(),
         None => vec![Vec3::zeros(); solids.len()],
     };

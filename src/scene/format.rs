@@ -12,6 +12,7 @@ use super::format_grains::{GrainsSection, SolidSection};
 use super::format_run::{
     CheckpointSection, CompareSection, EngineSection, RecordSection, StopSection,
 };
+use super::format_time::{NumberInTime, VectorInTime};
 use super::triple::Triple;
 
 /// A scene: one flow, with what to record and when to stop. All values in SI units.
@@ -177,10 +178,12 @@ pub struct FacesSection {
 pub struct FaceSection {
     /// `periodic`, `wall`, `free_slip`, `velocity_inlet`, `free_outflow` or `pressure`.
     pub kind: FaceKind,
-    /// Velocity of a `wall` (in its plane; at rest where absent) or of a `velocity_inlet`, m/s.
-    pub velocity: Option<Triple>,
-    /// Pressure above that of the fluid at its reference density, at a `pressure` face, Pa.
-    pub pressure: Option<f64>,
+    /// Velocity of a `wall` (in its plane; at rest where absent) or of a `velocity_inlet`, m/s: a vector, or how it
+    /// changes in time.
+    pub velocity: Option<VectorInTime>,
+    /// Pressure above that of the fluid at its reference density, at a `pressure` face, Pa: a number, or how it changes
+    /// in time.
+    pub pressure: Option<NumberInTime>,
     /// At a `pressure` face: whether the flow is developed there, that is, does not change along the normal. Then the
     /// face transmits the shear stress of the cells inside, and Poiseuille flow passes unchanged. Without it (the
     /// default) the face transmits no shear stress, as at the mouth of a jet: each end makes a channel effectively
@@ -226,8 +229,8 @@ pub enum FaceKind {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyForceSection {
-    /// Force per mass on the fluid, m/s2.
-    pub acceleration: Triple,
+    /// Force per mass on the fluid, m/s2: a vector, or how it changes in time.
+    pub acceleration: VectorInTime,
 }
 
 /// How the fluid starts.

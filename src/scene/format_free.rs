@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::triple::Triple;
+use super::format_time::VectorInTime;
 
 /// Contacts of free grains with each other, with fixed and prescribed grains, and with the faces of the domain: a
 /// spring and a dashpot (Voigt) with Coulomb friction. Give the normal spring by `stiffness` or by `duration`, the
@@ -54,8 +54,8 @@ pub struct LubricationSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GravitySection {
-    /// Acceleration, m/s2.
-    pub acceleration: Triple,
+    /// Acceleration, m/s2: a vector, or how it changes in time.
+    pub acceleration: VectorInTime,
     /// `reduced` (the default: the weight of a grain less its buoyancy acts on it, and the pressure is that above the
     /// hydrostatic one) or `body_force` (gravity acts on fluid and grains; the buoyancy
     /// is too small on coarse grids: 58, 80 and 92 % of the displaced weight at 4, 8 and 16 cells per

@@ -4,6 +4,7 @@ use psmrt_reference::partial_saturation::SolidOperator;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::format_time::VectorInTime;
 use super::triple::Triple;
 
 /// A grain, or several made by one rule. Each grain is a sphere.
@@ -50,13 +51,14 @@ pub struct GrainsSection {
     pub motion: MotionKind,
     /// With `free`: density of the grains, kg/m3; not together with a `csv` file that has a column for it.
     pub density: Option<f64>,
-    /// With `prescribed`: velocity, m/s; with `free`: velocity at the start. The fluid inside a grain starts with the
+    /// With `prescribed`: velocity, m/s: a vector, or how it changes in time; with `free`: velocity at the start. The fluid inside a grain starts with the
     /// grain, the fluid outside with `initial.velocity`. The fluid that a free grain must displace takes momentum from
     /// it within a few steps, as sound: a single grain of r times the fluid's density keeps r/(r + 1/2) of its velocity
     /// relative to the fluid (added mass; tests/oracle/free_start.rs).
-    pub velocity: Option<Triple>,
-    /// With `prescribed`: angular velocity, rad/s; with `free`: angular velocity at the start.
-    pub spin: Option<Triple>,
+    pub velocity: Option<VectorInTime>,
+    /// With `prescribed`: angular velocity, rad/s: a vector, or how it changes in time; with `free`: angular velocity at
+    /// the start.
+    pub spin: Option<VectorInTime>,
 }
 
 /// Where grains come from.

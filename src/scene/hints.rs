@@ -3,7 +3,7 @@
 use serde_json::Value as Node;
 use toml_edit::{Item, TableLike, Value};
 
-use super::schema::{Kind, describe, resolve, schema};
+use super::schema::{Kind, describe, schema};
 use super::synonyms::{key_of, words_of};
 use crate::quote::shown;
 
@@ -178,7 +178,7 @@ fn suggestion(name: &str, known: &[&str]) -> String {
 /// if no key or more than one takes it.
 pub(super) fn key_for(found: &Item, node: &Node) -> Option<(String, String)> {
     let value = found.as_value()?;
-    let takes = |inner: &Node| match (Kind::of(schema(), inner), value) {
+    let takes = |inner: &Node| match (Kind::of(schema(), inner).plain(), value) {
         (Kind::Word(known), Value::String(text)) => {
             let word = text.value().as_str();
             let meant = if known.contains(&word) { vec![word] } else { words_of(word, &known) };
@@ -193,10 +193,8 @@ pub(super) fn key_for(found: &Item, node: &Node) -> Option<(String, String)> {
         _ => None,
     };
     let keys = node["properties"].as_object()?;
-    let mut fitting: Vec<(String, String)> = keys
-        .iter()
-        .filter_map(|(key, inner)| Some((key.clone(), shown(&takes(resolve(schema(), inner)?)?))))
-        .collect();
+    let mut fitting: Vec<(String, String)> =
+        keys.iter().filter_map(|(key, inner)| Some((key.clone(), shown(&takes(inner)?)))).collect();
     let needed = |key: &str| {
         node["required"].as_array().is_some_and(|list| list.iter().any(|name| name == key))
     };

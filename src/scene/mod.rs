@@ -5,9 +5,10 @@
 //! | `source.rs`, `path.rs` | the text, and where each key stands |
 //! | `changes.rs` | `--set` |
 //! | `edit.rs` | changes of the text that the program makes |
-//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_run.rs` | the keys: names, types, and what they mean |
+//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_run.rs`, `format_time.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
 //! | `shape.rs` | sections, keys and types as the schema has them |
+//! | `strongest.rs` | values that change in time, at their largest |
 //! | `hints.rs`, `synonyms.rs` | what to write instead |
 //! | `trouble.rs` | the one message about what is wrong |
 //! | `schema.rs` | the JSON schema |
@@ -20,12 +21,14 @@ pub mod format;
 pub mod format_free;
 pub mod format_grains;
 pub mod format_run;
+pub mod format_time;
 mod hints;
 pub mod names;
 mod path;
 pub mod schema;
 mod shape;
 mod source;
+mod strongest;
 mod synonyms;
 mod triple;
 pub mod trouble;
@@ -36,15 +39,16 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
 pub use changes::{differ, preset_changes};
+pub use check::attachment::Attachment;
 pub use check::checkpoint::Interval;
 pub use check::free::FreePart;
-pub use check::grains::Attachment;
 pub use check::records::{OutputInterval, Record, What};
 pub use check::stop::{Steady, Stop};
 pub use format_run::{EngineKind, Precision};
 pub use trouble::{SceneError, Trouble};
 
 use crate::exact::PlanePoiseuille;
+use crate::in_time::Drives;
 use crate::units::Units;
 use crate::{input, quote};
 use format_grains::OperatorName;
@@ -70,12 +74,16 @@ pub struct Scene {
     pub operator_is_chosen: bool,
     /// How the grains move, if some are free.
     pub free: Option<FreePart>,
+    /// What changes in time, if anything does; the set-up and `free` have the values of the first step.
+    pub drives: Option<Drives>,
     /// Velocity at the start, lattice units.
     pub initial_velocity: Vec3,
     /// `time.reference_velocity`, if it is given, m/s.
     pub si_reference_velocity: Option<f64>,
     /// When to save the state.
     pub checkpoint: Interval,
+    /// Whether the last state is kept.
+    pub keeps_last_state: bool,
     /// What to record.
     pub records: Vec<Record>,
     /// When to stop.
@@ -88,6 +96,11 @@ pub struct Scene {
     pub precision: Option<Precision>,
     /// A part of the name of the adapter that is to be used, if one is named.
     pub adapter: Option<String>,
+}
+
+/// The value of a key of a document, if it is there.
+pub fn find_mut<'a>(root: &'a mut toml_edit::Item, key: &str) -> Option<&'a mut toml_edit::Item> {
+    path::Path::parse(key)?.walk_mut(root)
 }
 
 impl Scene {
@@ -116,10 +129,9 @@ impl Scene {
     }
 
     /// The same scene as a run keeps it, so that it goes on with the same: its text names the copies of its
-    /// files ([`Attachment::file_name`]), and the `engine` that computes it where that was left open.
+    /// files ([`Attachment`]), and the `engine` that computes it where that was left open.
     pub fn as_run(self, engine: EngineKind) -> Result<Self, Box<SceneError>> {
-        let copy =
-            |list: &Attachment| format!("grains[{}].file=\"{}\"", list.section, list.file_name());
+        let copy = |file: &Attachment| format!("{}=\"{}\"", file.key, file.file_name);
         let mut changes: Vec<String> = self.attachments.iter().map(copy).collect();
         if let Some(phase) = self.setup.solid_phase.as_ref().filter(|_| self.operator_is_chosen) {
             // Named in what is kept, so that the run goes on with it whatever is chosen later.

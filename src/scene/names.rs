@@ -20,13 +20,16 @@ pub const FACTS: &str = "run.json";
 /// Table and picture of the comparison with an exact solution.
 pub const COMPARISON: [&str; 2] = ["comparison.csv", "comparison.svg"];
 
+/// From which run and step a run goes on that did not begin at step 0: it alone has one.
+pub const ORIGIN: &str = "origin.json";
+
 /// What makes a file or folder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MadeBy {
     /// Every run.
     Run,
-    /// The `[[grains]]` section of this number: the copy of its list.
-    List(usize),
+    /// The file of this number among those that the scene names: its copy.
+    Copy(usize),
     /// `[compare]`.
     Comparison,
     /// The record of this number.
@@ -46,13 +49,14 @@ pub struct Made {
 
 /// All files and folders that a run makes in its folder. What lies in the folder of a record is called after
 /// the step and cannot meet anything else; half-written files have names of their own.
-pub fn all(records: &[Record], lists: &[Attachment], compares: bool) -> Vec<Made> {
+pub fn all(records: &[Record], copies: &[Attachment], compares: bool) -> Vec<Made> {
     let file = |by: MadeBy, name: String| Made { name, is_folder: false, by };
     let folder = |by: MadeBy, name: &str| Made { name: name.to_owned(), is_folder: true, by };
     let run = [LOCK, ID, SCENE, FACTS];
     let mut made: Vec<Made> = run.map(|name| file(MadeBy::Run, name.to_owned())).into();
     made.push(folder(MadeBy::Run, CHECKPOINTS));
-    made.extend(lists.iter().map(|list| file(MadeBy::List(list.section), list.file_name())));
+    let numbered = copies.iter().enumerate();
+    made.extend(numbered.map(|(number, copy)| file(MadeBy::Copy(number), copy.file_name.clone())));
     if compares {
         made.extend(COMPARISON.map(|name| file(MadeBy::Comparison, name.to_owned())));
     }

@@ -37,4 +37,12 @@ impl Path {
             Step::Number(number) => item.get(number),
         })
     }
+
+    /// The same, to be changed.
+    pub fn walk_mut<'a>(&self, root: &'a mut Item) -> Option<&'a mut Item> {
+        self.0.iter().try_fold(root, |item, step| match step {
+            Step::Name(name) => item.get_mut(name),
+            Step::Number(number) => item.get_mut(number),
+        })
+    }
 }

@@ -36,6 +36,15 @@ pub(crate) enum Kind<'a> {
     },
     /// A list of some words.
     Words(Vec<&'a str>),
+    /// Rows of a fixed count of numbers.
+    Rows(u64),
+    /// A value, or a section that says how it changes in time, its node.
+    InTime {
+        /// The value.
+        value: Box<Kind<'a>>,
+        /// The section.
+        section: &'a Value,
+    },
     /// A number.
     Number,
     /// A whole number.
@@ -58,6 +67,12 @@ impl<'a> Kind<'a> {
         if let Some(words) = words(node) {
             return Kind::Word(words);
         }
+        if let Some(value) = plain_choice(node) {
+            return match section_of(root, node) {
+                Some(section) => Kind::InTime { value: Box::new(Kind::of(root, value)), section },
+                None => Kind::of(root, value),
+            };
+        }
         let kind = match &node["type"] {
             Value::Array(kinds) => kinds.first().and_then(Value::as_str).unwrap_or(""),
             kind => kind.as_str().unwrap_or(""),
@@ -69,6 +84,9 @@ impl<'a> Kind<'a> {
                     return Kind::Sections(item);
                 }
                 let whole = item["type"] == "integer";
+                if item["type"] == "array" {
+                    return Kind::Rows(item["minItems"].as_u64().unwrap_or(0));
+                }
                 match (node.get("minItems").and_then(Value::as_u64), words(item)) {
                     (Some(count), _) => Kind::Numbers { count, whole },
                     (None, words) => Kind::Words(words.unwrap_or_default()),
@@ -82,6 +100,14 @@ impl<'a> Kind<'a> {
         }
     }
 
+    /// That of a value that does not change in time.
+    pub(crate) fn plain(self) -> Self {
+        match self {
+            Kind::InTime { value, .. } => *value,
+            kind => kind,
+        }
+    }
+
     /// In words, for the reference.
     pub(crate) fn words(&self) -> String {
         match self {
@@ -90,12 +116,30 @@ impl<'a> Kind<'a> {
             Kind::Word(words) => listed(words),
             Kind::Numbers { count, .. } => format!("{count} numbers"),
             Kind::Words(words) => format!("list of {}", listed(words)),
+            Kind::Rows(count) => format!("rows of {count} numbers"),
+            Kind::InTime { value, .. } => format!("{}, or section", value.words()),
             Kind::Number => "number".to_owned(),
             Kind::Whole => "whole number".to_owned(),
             Kind::Switch => "boolean".to_owned(),
             Kind::Text => "text".to_owned(),
             Kind::Other => String::new(),
         }
+    }
+}
+
+/// Of a node that is one of several, that which is no section; `None` where a section or nothing is the only choice.
+fn plain_choice(node: &Value) -> Option<&Value> {
+    let choices = node.get("anyOf")?.as_array()?;
+    choices.iter().find(|choice| choice.get("$ref").is_none() && choice["type"] != "null")
+}
+
+/// The section that a node leads to, by way of choices.
+fn section_of<'a>(root: &'a Value, node: &'a Value) -> Option<&'a Value> {
+    let next = resolve(root, node)?;
+    match next.get("properties") {
+        Some(_) => Some(next),
+        None if std::ptr::eq(next, node) => None,
+        None => section_of(root, next),
     }
 }
 
@@ -123,7 +167,7 @@ pub fn describe(key: &str) -> Option<String> {
             Some((name, _)) => (name, true),
             None => (part, false),
         };
-        at = resolve(root, at)?.get("properties")?.get(name)?;
+        at = section_of(root, at)?.get("properties")?.get(name)?;
         if indexed {
             at = at.get("items")?;
         }

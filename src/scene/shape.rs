@@ -72,6 +72,10 @@ fn item(found: &Item, wanted: Kind, key: &str) -> Result<(), Misfit> {
             Ok(())
         }
         (Kind::Sections(_), _) => Err(no_sections(found.span(), key)),
+        (Kind::InTime { value: plain, section: node }, _) => match found.as_table_like() {
+            Some(table) => section(table, node, key),
+            None => item(found, *plain, key),
+        },
         (wanted, Item::Value(found)) => value(found, &wanted, key),
         (wanted, _) => {
             let problem = "it is a value, not a section".to_owned();
@@ -151,6 +155,25 @@ fn value(found: &Value, wanted: &Kind, key: &str) -> Result<(), Misfit> {
                     remedy: remedy.unwrap_or_else(meaning),
                 }),
             })
+        }
+        Kind::Rows(count) => {
+            let is_row = |row: &Value| {
+                let list = row.as_array().filter(|list| list.len() as u64 == *count);
+                list.is_some_and(|list| list.iter().all(|value| number(value, false).is_ok()))
+            };
+            let rows = found.as_array();
+            match rows.map(|rows| rows.iter().find(|row| !is_row(row))) {
+                Some(None) => Ok(()),
+                Some(Some(row)) => Err(Misfit {
+                    key: key.to_owned(),
+                    span: row.span(),
+                    problem: format!(
+                        "each of its rows has {count} numbers in brackets: this has not"
+                    ),
+                    remedy: meaning(),
+                }),
+                None => misfit(format!("it is a list of rows of {count} numbers"), meaning()),
+            }
         }
         Kind::Number | Kind::Whole => match number(found, matches!(wanted, Kind::Whole)) {
             Ok(()) => Ok(()),

@@ -26,6 +26,7 @@ mod trials;
 mod conformance_candidates;
 mod drive;
 mod implicit_coupling;
+mod in_time;
 mod kernel_conformance;
 mod kernel_engine;
 mod kernel_extremes;
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         for (file, claims) in [
             ("drive", drive::CLAIMS),
             ("implicit_coupling", implicit_coupling::CLAIMS),
+            ("in_time", in_time::CLAIMS),
             ("kernel_engine", kernel_engine::CLAIMS),
             ("kernel_extremes", kernel_extremes::CLAIMS),
             ("kernel_parity", kernel_parity::CLAIMS),

@@ -134,7 +134,7 @@ fn records_whose_files_would_meet_others_are_refused_by_key_before_anything_is_m
     for (text, told) in [
         (record(&poiseuille, "comparison", "\"box\""), "comparison.csv"),
         (record(&poiseuille, "COMPARISON", "\"box\""), "COMPARISON.csv"),
-        (record(&own, "grains_0", "\"box\""), "the copy of the list of grains[0]"),
+        (record(&own, "grains_0", "\"box\""), "the copy of `grains[0].file`"),
         (record(&own, "checkpoints", slice), "checkpoints"),
         (record(&own, "Checkpoints", slice), "Checkpoints"),
         (record(&own, "BOX", slice), "records[0] has this name already"),

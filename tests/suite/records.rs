@@ -246,9 +246,9 @@ steps = 100
         // colour.
         let share = found / (all - kept);
         assert!(share > least && share <= 1.0, "{kind}: {found} bytes, {} estimated", all - kept);
-        // Two of the three that may be there at a time.
+        // Of the three that may be there at a time the last state stays.
         assert!(
-            saved > 0.6 * kept && saved <= kept,
+            saved > 0.3 * kept && saved <= kept,
             "checkpoints: {saved} bytes, {kept} estimated"
         );
     }

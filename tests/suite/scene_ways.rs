@@ -34,7 +34,7 @@ steps = 90
 
 fn meeting(text: &str) -> Option<Meeting> {
     let scene = scene(text);
-    Lookout::new(&scene, 0).meeting_until(scene.stop.steps, u64::MAX)
+    Lookout::from_start(&scene).meeting_until(scene.stop.steps, u64::MAX)
 }
 
 /// A time step is 0.1 dx²/ν = 1e-5 s, in which the sphere moves by 0.03 cells: the gap of 2 cells and the 1 % of

@@ -1,6 +1,7 @@
 //! Free grains, driven by the loads of whatever engine computes the fluid.
 
 use crate::domain::{Domain, Face};
+use crate::grains::contact::Motion;
 use crate::grains::grain::{Grain, sphere_volume};
 use crate::grains::hold;
 use crate::grains::plane::Plane;
@@ -57,6 +58,16 @@ impl Gravity {
             Gravity::Reduced { acceleration }
             | Gravity::Balanced { acceleration }
             | Gravity::OnFluidToo { acceleration } => acceleration,
+        }
+    }
+
+    /// The same form with another acceleration.
+    #[must_use]
+    pub fn with(self, acceleration: Vec3) -> Self {
+        match self {
+            Gravity::Reduced { .. } => Gravity::Reduced { acceleration },
+            Gravity::Balanced { .. } => Gravity::Balanced { acceleration },
+            Gravity::OnFluidToo { .. } => Gravity::OnFluidToo { acceleration },
         }
     }
 }
@@ -163,6 +174,16 @@ impl FreeGrains {
             }
         }
         Ok(())
+    }
+
+    /// Lets gravity be `acceleration` from now on, in the form that it has; nothing happens where there is none.
+    pub fn set_gravity(&mut self, acceleration: Vec3) {
+        self.settings.gravity = self.settings.gravity.map(|gravity| gravity.with(acceleration));
+    }
+
+    /// Gives a held grain another motion from now on; any other keeps its own.
+    pub fn prescribe(&mut self, grain: usize, motion: &Motion) {
+        self.grains.prescribe(grain, motion);
     }
 
     /// What acts on each grain besides contacts in the coming step: the fluid's load, the inertia of

@@ -1,6 +1,6 @@
 //! Grains, planes and domain together: the order of operations in a sub-step.
 
-use crate::grains::contact::{ContactMemory, PairForce};
+use crate::grains::contact::{ContactMemory, Motion, PairForce};
 use crate::grains::grain::Grain;
 use crate::grains::interaction::{between_grains, with_plane};
 use crate::grains::motion::{Course, divide, drift, kick};
@@ -203,6 +203,14 @@ impl GrainSystem {
                 load.torque += torques[0];
             }
         });
+    }
+
+    /// Gives a held grain another motion from now on; any other keeps its own.
+    pub fn prescribe(&mut self, grain: usize, motion: &Motion) {
+        if let Some(grain) = self.grains.get_mut(grain).filter(|grain| grain.held) {
+            grain.velocity = motion.velocity;
+            grain.angular_velocity = motion.angular_velocity;
+        }
     }
 
     /// The grains.

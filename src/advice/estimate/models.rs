@@ -7,6 +7,7 @@ use psmrt_reference::partial_saturation::{SolidOperator, Weighting};
 use psmrt_reference::solids::Solid;
 
 use super::grains;
+use crate::in_time::Drives;
 use crate::scene::format_grains::OperatorName;
 use crate::scene::{OutputInterval, Scene, What};
 
@@ -41,7 +42,8 @@ pub fn models(scene: &Scene) -> Vec<String> {
             }
         ));
         models.extend(operator(scene));
-        if phase.solids.iter().any(psmrt_reference::solids::Solid::moves) {
+        let changing = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
+        if changing || phase.solids.iter().any(Solid::moves) {
             models.push("moving grains: coverage is computed in every step".to_owned());
         }
     }
@@ -62,6 +64,14 @@ pub fn models(scene: &Scene) -> Vec<String> {
                 face => models.push(format!("face {name}: {}", face_words(&face))),
             }
         }
+    }
+    for (key, period, end) in scene.drives.iter().flat_map(Drives::all) {
+        models.push(match period {
+            Some(period) => {
+                format!("{key}: a sine of period {:.4e} s", period * scene.units.si_dt)
+            }
+            None => format!("{key}: a table, until {:.4e} s", end * scene.units.si_dt),
+        });
     }
     for record in &scene.records {
         let what = match record.what {
@@ -93,7 +103,8 @@ pub fn models(scene: &Scene) -> Vec<String> {
 pub fn operator(scene: &Scene) -> Option<String> {
     let phase = scene.setup.solid_phase.as_ref()?;
     let word = OperatorName::of(phase.operator).word();
-    let is_moved = scene.free.is_some() || phase.solids.iter().any(Solid::has_velocity);
+    let changing = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
+    let is_moved = changing || scene.free.is_some() || phase.solids.iter().any(Solid::has_velocity);
     let why = match (scene.operator_is_chosen, phase.weighting, is_moved) {
         (false, ..) => "named in the scene",
         (true, Weighting::Graded, _) => {

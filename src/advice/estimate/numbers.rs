@@ -45,8 +45,9 @@ fn predicted_error(scene: &Scene) -> Option<Number> {
     Some(number("predicted error", 100.0 * found.error, "%", note))
 }
 
-/// The derived numbers.
+/// The derived numbers, with values that change in time at their largest.
 pub fn numbers(scene: &Scene) -> Vec<Number> {
+    let scene = &*scene.at_its_strongest();
     let (units, tau) = (&scene.units, scene.setup.collision.tau());
     let cells = scene.setup.domain.cells();
     let count = scene.setup.domain.cell_count();

@@ -8,6 +8,7 @@ mod ends;
 mod faces;
 mod graded;
 mod gravity;
+mod in_time;
 mod lists;
 mod prescribed;
 mod records;
@@ -24,7 +25,6 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     accuracy::warnings,
     graded::warnings,
     faces::warnings,
-    start::warnings,
     ends::warnings,
     gravity::warnings,
     density::warnings,
@@ -33,9 +33,12 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     stability::warnings,
     lists::warnings,
     records::warnings,
+    in_time::warnings,
 ];
 
-/// All that looks risky.
+/// All that looks risky, with values that change in time at their largest; but for how the scene starts.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    TOPICS.iter().flat_map(|topic| topic(scene)).collect()
+    let strongest = scene.at_its_strongest();
+    let all = TOPICS.iter().flat_map(|topic| topic(&strongest));
+    start::warnings(scene).into_iter().chain(all).collect()
 }

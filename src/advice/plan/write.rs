@@ -3,13 +3,13 @@
 use psmrt_reference::collision::Preset;
 use std::path::Path;
 
-use toml_edit::{DocumentMut, Item, value};
+use toml_edit::{DocumentMut, value};
 
 use super::options::PlanOption;
 use crate::advice::tradeoff::model::SolidMethod;
 use crate::engine::EngineName;
 use crate::scene::Scene;
-use crate::scene::edit::{put_on_grid, scale_steps, section, set_tau, tables};
+use crate::scene::edit::{put_on_grid, scale_steps, section, set_tau};
 
 /// The text of `scene` computed in this way, with `comment` above it; files that it names are looked for
 /// in `folder`, in which the scene stood. Errors if the text cannot be read again, which a scene that was
@@ -54,11 +54,13 @@ pub fn text(
         / (psmrt_reference::lattice::viscosity(scene.setup.collision.tau())
             * scene.units.si_viscosity());
     scale_steps(&mut document, scene.units.si_dt / si_dt);
-    for table in tables(&mut document, "grains") {
-        let Some(file) = table.get("file").and_then(Item::as_str) else { continue };
-        let file = folder.join(file);
+    for copy in &scene.attachments {
+        let Some(item) = crate::scene::find_mut(document.as_item_mut(), &copy.key) else {
+            continue;
+        };
+        let file = folder.join(item.as_str().unwrap_or_default());
         let file = std::path::absolute(&file).unwrap_or(file);
-        table["file"] = value(file.display().to_string());
+        *item = value(file.display().to_string());
     }
     let comment: String = comment.lines().map(|line| format!("# {line}\n")).collect();
     Ok(format!("{comment}\n{document}"))

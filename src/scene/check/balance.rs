@@ -1,6 +1,7 @@
 //! `gravity.balance`: where a pressure gradient may carry the net weight of all grains.
 
 use psmrt_reference::domain::{Domain, FACE_NAMES, Face};
+use psmrt_reference::lattice::Vec3;
 
 use super::Trouble;
 use super::grains::GrainList;
@@ -8,8 +9,14 @@ use crate::scene::format::SceneFile;
 use crate::scene::format_free::GravityForm;
 use crate::scene::format_grains::MotionKind;
 
-/// Errors where something else holds up fluid and grains, or pushes them.
-pub(super) fn check(file: &SceneFile, list: &GrainList, domain: &Domain) -> Result<(), Trouble> {
+/// Errors where something else holds up fluid and grains, or pushes them. `gravity`: along each axis the largest that it
+/// ever is.
+pub(super) fn check(
+    file: &SceneFile,
+    gravity: &Vec3,
+    list: &GrainList,
+    domain: &Domain,
+) -> Result<(), Trouble> {
     let trouble =
         |problem: &str, remedy: &str| Err(Trouble::new("gravity.balance", problem, remedy));
     let Some(section) = &file.gravity else { return Ok(()) };
@@ -27,7 +34,7 @@ pub(super) fn check(file: &SceneFile, list: &GrainList, domain: &Domain) -> Resu
     }
     for axis in 0..3 {
         for (side, face) in domain.faces().axis(axis).into_iter().enumerate() {
-            let along = section.acceleration[axis] != 0.0;
+            let along = gravity[axis] != 0.0;
             if face != Face::Periodic && (along || face != Face::FreeSlip) {
                 let problem = format!(
                     "the face at {} holds up what is in the domain, so that nothing is to be balanced",

@@ -1,41 +1,79 @@
 //! The six faces, and the combinations that make no sense.
 
 use psmrt_reference::domain::{DomainError, FACE_NAMES, Face, Faces};
+use psmrt_reference::drive::DriveError;
 use psmrt_reference::lattice::{CS2, Vec3};
+use psmrt_reference::setup::{Setup, SetupError};
 
+use super::in_time::Files;
 use super::numbers::{absent, beyond, finite, needed, shorter_step};
-use super::{Trouble, velocity};
+use super::signal_file::Subject;
+use super::{Trouble, in_time, velocity};
+use crate::in_time::{FaceSignal, Signal};
 use crate::scene::format::{FaceKind, FaceSection, FacesSection};
+use crate::scene::format_time::VectorInTime;
 use crate::units::Units;
 
 /// Keys of the faces, `KEYS[axis][side]`.
 const KEYS: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
 
-/// What happens at the six faces.
+/// What happens at the six faces: in the first step, and how it changes.
 pub(super) fn faces(
     section: &FacesSection,
     cells: [usize; 3],
     units: &Units,
-) -> Result<Faces, Trouble> {
+    files: &mut Files,
+) -> Result<(Faces, [[FaceSignal; 2]; 3]), Trouble> {
     let given = [
         [&section.x_low, &section.x_high],
         [&section.y_low, &section.y_high],
         [&section.z_low, &section.z_high],
     ];
     let mut built = [[Face::Periodic; 2]; 3];
+    let mut signals = [[(); 2]; 3].map(|axis| axis.map(|()| FaceSignal::Constant));
     for axis in 0..3 {
         for side in 0..2 {
             if let Some(section) = given[axis][side] {
-                built[axis][side] = face(KEYS[axis][side], section, cells[axis], units)?;
+                (built[axis][side], signals[axis][side]) =
+                    face(KEYS[axis][side], section, cells[axis], units, files)?;
             }
         }
     }
     let [x, y, z] = built;
-    Ok(Faces { x, y, z })
+    Ok((Faces { x, y, z }, signals))
+}
+
+/// Errors at a face whose value makes no sense at some other time than in the first step, of which `setup` is.
+pub(super) fn check_later(setup: &Setup, signals: &[[FaceSignal; 2]; 3]) -> Result<(), Trouble> {
+    for axis in 0..3 {
+        for side in 0..2 {
+            for value in signals[axis][side].corners() {
+                let mut drive = setup.drive();
+                drive.faces[axis][side] = value;
+                match setup.clone().set_drive(&drive) {
+                    Err(DriveError::Value(SetupError::Domain(error))) => {
+                        return Err(trouble(&error));
+                    }
+                    Err(error) => {
+                        let key = format!("faces.{}", KEYS[axis][side]);
+                        return Err(Trouble::new(key, error.to_string(), "change the value"));
+                    }
+                    Ok(()) => {}
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 /// One face; `along`: cells of the domain along its normal.
-fn face(name: &str, section: &FaceSection, along: usize, units: &Units) -> Result<Face, Trouble> {
+fn face(
+    name: &str,
+    section: &FaceSection,
+    along: usize,
+    units: &Units,
+    files: &mut Files,
+) -> Result<(Face, FaceSignal), Trouble> {
     let key = |last: &str| format!("faces.{name}.{last}");
     if !matches!(section.kind, FaceKind::Wall | FaceKind::VelocityInlet) {
         let belongs = "a `wall` or a `velocity_inlet`";
@@ -54,28 +92,39 @@ fn face(name: &str, section: &FaceSection, along: usize, units: &Units) -> Resul
         let belongs = "a `pressure` face with `non_reflecting = true`";
         absent(&key("memory"), section.memory.as_ref(), belongs)?;
     }
+    let mut velocity_of = |given: &VectorInTime| {
+        let key = key("velocity");
+        let convert = |si_velocity| velocity(&key, si_velocity, units);
+        in_time::vector(Subject::vector(&key, "m/s"), given, units, files, convert)
+    };
     Ok(match section.kind {
-        FaceKind::Periodic => Face::Periodic,
-        FaceKind::FreeSlip => Face::FreeSlip,
-        FaceKind::FreeOutflow => Face::FreeOutflow,
-        FaceKind::Wall => Face::Wall {
-            velocity: match section.velocity {
-                Some(si_velocity) => velocity(&key("velocity"), si_velocity, units)?,
-                None => Vec3::zeros(),
-            },
+        FaceKind::Periodic => (Face::Periodic, FaceSignal::Constant),
+        FaceKind::FreeSlip => (Face::FreeSlip, FaceSignal::Constant),
+        FaceKind::FreeOutflow => (Face::FreeOutflow, FaceSignal::Constant),
+        FaceKind::Wall => match &section.velocity {
+            Some(given) => {
+                let signal = velocity_of(given)?;
+                (Face::Wall { velocity: signal.at(FIRST) }, of_velocity(signal))
+            }
+            None => (Face::wall(), FaceSignal::Constant),
         },
         FaceKind::VelocityInlet => {
             let remedy = "add `velocity = [x, y, z]` in m/s";
-            let si_velocity =
-                needed(&key("velocity"), section.velocity, "an inlet needs it", remedy)?;
-            Face::VelocityInlet { velocity: velocity(&key("velocity"), si_velocity, units)? }
+            let given =
+                needed(&key("velocity"), section.velocity.as_ref(), "an inlet needs it", remedy)?;
+            let signal = velocity_of(given)?;
+            (Face::VelocityInlet { velocity: signal.at(FIRST) }, of_velocity(signal))
         }
         FaceKind::Pressure => {
             let remedy = "add `pressure` in Pa above the pressure of the fluid at rest, often 0";
-            let si_pressure =
-                needed(&key("pressure"), section.pressure, "a pressure face needs it", remedy)?;
-            let density = density(&key("pressure"), si_pressure, units)?;
-            match (section.non_reflecting, section.developed) {
+            let key_of = key("pressure");
+            let given =
+                needed(&key_of, section.pressure.as_ref(), "a pressure face needs it", remedy)?;
+            let subject = Subject { key: &key_of, unit: "Pa", names: ["pressure"] };
+            let convert = |si_pressure| density(&key_of, si_pressure, units);
+            let signal = in_time::number(subject, given, units, files, convert)?;
+            let density = signal.at(FIRST);
+            let face = match (section.non_reflecting, section.developed) {
                 (Some(true), Some(false)) => {
                     return Err(Trouble::new(
                         key("developed"),
@@ -89,9 +138,18 @@ fn face(name: &str, section: &FaceSection, along: usize, units: &Units) -> Resul
                 }
                 (_, Some(true)) => Face::DevelopedPressure { density },
                 _ => Face::Pressure { density },
-            }
+            };
+            let changes = signal.varies();
+            (face, if changes { FaceSignal::Density(signal) } else { FaceSignal::Constant })
         }
     })
+}
+
+/// The time of the first step at which faces have their value.
+const FIRST: f64 = 0.5;
+
+fn of_velocity(signal: Signal<Vec3>) -> FaceSignal {
+    if signal.varies() { FaceSignal::Velocity(signal) } else { FaceSignal::Constant }
 }
 
 /// Memory of a non-reflecting face where a scene gives none, in times that sound takes across the domain: the flow

@@ -14,6 +14,7 @@ use super::hardness::Burden;
 use super::listed::Listed;
 use super::maker::Maker;
 use super::{Trouble, balance, effort, mirrors};
+use crate::in_time::Signal;
 use crate::scene::format::SceneFile;
 use crate::scene::format_free::{GravityForm, GravitySection, InternalFluidName};
 use crate::units::Units;
@@ -59,6 +60,7 @@ impl FreePart {
 pub(super) fn free_part(
     file: &SceneFile,
     list: &mut GrainList,
+    gravity_in_time: Option<&Signal<Vec3>>,
     domain: &Domain,
     tau: f64,
     units: &Units,
@@ -69,13 +71,19 @@ pub(super) fn free_part(
     }
     let contact = file.contact.clone().unwrap_or_default();
     consistent(&contact)?;
-    let gravity = file.gravity.as_ref().map(|section| gravity(section, units)).transpose()?;
+    let sectioned = file.gravity.as_ref().zip(gravity_in_time);
+    let gravity = sectioned.map(|(section, signal)| form_of(section).with(signal.at(0.0)));
+    // Along each axis the largest that it ever is.
+    let extent = gravity_in_time.map_or_else(Vec3::zeros, |signal| {
+        let corners = signal.corners().into_iter();
+        corners.fold(Vec3::zeros(), |most, corner| most.sup(&corner.abs()))
+    });
     if file.gravity.as_ref().is_some_and(|section| section.balance) {
-        balance::check(file, list, domain)?;
+        balance::check(file, &extent, list, domain)?;
     }
-    let mirrored = mirrors::centred(domain, list, gravity.as_ref(), units)?;
+    let mirrored = mirrors::centred(domain, list, &extent, units)?;
     let grains: Vec<Grain> = list.grains.iter().map(Listed::to_grain).collect();
-    let g = gravity.as_ref().map_or_else(Vec3::zeros, Gravity::acceleration);
+    let g = gravity_in_time.map_or_else(Vec3::zeros, |signal| signal.largest(Vec3::norm));
     let weight_asks = Burden::new(&grains, &g, domain, viscosity(tau)).stiffness();
     let bodies = Bodies { lightest, weight_asks };
     let maker = Maker { grains: &grains, bodies, domain, mirrored, tau, units };
@@ -115,14 +123,14 @@ fn no_free_grains(file: &SceneFile) -> Result<(), Trouble> {
     Err(Trouble::new(name, problem, remedy))
 }
 
-/// Gravity in lattice units.
-fn gravity(section: &GravitySection, units: &Units) -> Result<Gravity, Trouble> {
-    let acceleration = super::acceleration("gravity.acceleration", section.acceleration, units)?;
-    Ok(match section.form {
+/// The form of gravity that a scene asks for, of no strength.
+fn form_of(section: &GravitySection) -> Gravity {
+    let acceleration = Vec3::zeros();
+    match section.form {
         GravityForm::Reduced if section.balance => Gravity::Balanced { acceleration },
         GravityForm::Reduced => Gravity::Reduced { acceleration },
         GravityForm::BodyForce => Gravity::OnFluidToo { acceleration },
-    })
+    }
 }
 
 /// The key to blame for grains that cannot be moved.

@@ -1,50 +1,35 @@
 //! Grains: all sections together as one list, in lattice units.
 
-use std::path::Path;
-
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
+use super::in_time::Files;
 use super::listed::{Ball, Listed, Site, check_size, place_key, size_key};
 use super::numbers::{absent, beyond, finite, needed, positive, shorter_step};
-use super::{MAX_SPEED, Trouble, grain_kinds, neighbours};
+use super::signal_file::Subject;
+use super::{Attachment, MAX_SPEED, Trouble, grain_kinds, in_time, neighbours};
+use crate::in_time::{Prescribed, Signal};
 use crate::scene::format_grains::{GrainsSection, MotionKind};
+use crate::scene::format_time::VectorInTime;
 use crate::units::Units;
 
 /// Densities of free grains over that of the fluid: beyond lie mistaken units.
 const DENSITY_RATIOS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
 /// The contents of a file that a scene names: a run keeps a copy.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Attachment {
-    /// Number of the `[[grains]]` section that names it.
-    pub section: usize,
-    /// What is in it.
-    pub bytes: Vec<u8>,
-    /// Whether it has densities that nobody uses: its grains are not free.
-    pub unused_densities: bool,
-}
-
-impl Attachment {
-    /// Name of the copy in the folder of a run.
-    pub fn file_name(&self) -> String {
-        format!("grains_{}.csv", self.section)
-    }
-}
-
-/// All grains of a scene, and the files they come from.
+/// All grains of a scene, and those of them whose motion changes in time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct GrainList {
     pub grains: Vec<Listed>,
-    pub attachments: Vec<Attachment>,
+    pub prescribed: Vec<Prescribed>,
 }
 
 impl GrainList {
     /// The grains of a scene.
     pub fn new(
         sections: &[GrainsSection],
-        folder: &Path,
+        files: &mut Files,
         domain: &Domain,
         units: &Units,
     ) -> Result<Self, Trouble> {
@@ -52,16 +37,26 @@ impl GrainList {
         for (number, section) in sections.iter().enumerate() {
             let at = |key: &str| format!("grains[{number}].{key}");
             grain_kinds::foreign_keys(section, &at)?;
-            let (velocity, angular_velocity) = motion(section, &at, units)?;
+            let motion = motion(section, &at, units, files)?;
+            let (velocity, angular_velocity) = (motion.0.at(0.0), motion.1.at(0.0));
+            let fastest = (motion.0.largest(Vec3::norm), motion.1.largest(Vec3::norm));
             let place = Site { at: &at, domain, units };
-            let (balls, bytes) = grain_kinds::balls(section, folder, &place)?;
+            let (balls, bytes) = grain_kinds::balls(section, files.folder, &place)?;
             let unused_densities =
                 section.motion != MotionKind::Free && balls.iter().any(|b| b.si_density.is_some());
-            list.attachments.extend(bytes.map(|bytes| Attachment {
-                section: number,
-                bytes,
-                unused_densities,
-            }));
+            files
+                .attachments
+                .extend(bytes.map(|bytes| Attachment::of_grains(number, bytes, unused_densities)));
+            let solids = list.grains.len()..list.grains.len() + balls.len();
+            if motion.0.varies() || motion.1.varies() {
+                let (velocity, angular_velocity) = motion;
+                list.prescribed.push(Prescribed {
+                    solids,
+                    section: number,
+                    velocity,
+                    angular_velocity,
+                });
+            }
             for ball in balls {
                 let on_line = |trouble: Trouble| trouble.on_line(ball.line);
                 let density = density(section, &at, &ball, units).map_err(on_line)?;
@@ -69,8 +64,7 @@ impl GrainList {
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
                 let (key, motion) = (place_key(section, &at), section.motion);
                 check_size(&size_key(section, &at), radius, domain, units).map_err(on_line)?;
-                check_speed(&at("spin"), &velocity, &angular_velocity, radius, units)
-                    .map_err(on_line)?;
+                check_speed(&at("spin"), &fastest.0, &fastest.1, radius, units).map_err(on_line)?;
                 neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
                 let line = ball.line;
                 list.grains.push(Listed {
@@ -94,6 +88,18 @@ impl GrainList {
         self.grains.iter().filter(|listed| listed.motion == MotionKind::Free)
     }
 
+    /// Velocity and angular velocity of grain `number`, at the start and where they are largest.
+    pub fn motions(&self, number: usize) -> Vec<(Vec3, Vec3)> {
+        let start = &self.grains[number];
+        let mut motions = vec![(start.velocity, start.angular_velocity)];
+        for prescribed in self.prescribed.iter().filter(|all| all.solids.contains(&number)) {
+            let still = Vec3::zeros();
+            motions.extend(prescribed.velocity.corners().into_iter().map(|v| (v, still)));
+            motions.extend(prescribed.angular_velocity.corners().into_iter().map(|w| (still, w)));
+        }
+        motions
+    }
+
     /// All as solids of the fluid.
     pub fn solids(&self) -> Vec<Solid> {
         let solid = |listed: &Listed| {
@@ -109,7 +115,8 @@ fn motion(
     section: &GrainsSection,
     at: &impl Fn(&str) -> String,
     units: &Units,
-) -> Result<(Vec3, Vec3), Trouble> {
+    files: &mut Files,
+) -> Result<(Signal<Vec3>, Signal<Vec3>), Trouble> {
     match section.motion {
         MotionKind::Fixed => {
             let belongs = "`motion = \"prescribed\"` or \"free\"";
@@ -120,15 +127,32 @@ fn motion(
             let problem = "it needs `velocity` (m/s) or `spin` (rad/s), and has neither";
             return Err(Trouble::new(at("motion"), problem, "add one of them, or use \"fixed\""));
         }
-        MotionKind::Prescribed | MotionKind::Free => {}
+        MotionKind::Free => {
+            only_at_start(&at("velocity"), section.velocity.as_ref())?;
+            only_at_start(&at("spin"), section.spin.as_ref())?;
+        }
+        MotionKind::Prescribed => {}
     }
-    let velocity = match section.velocity {
-        Some(si_velocity) => super::velocity(&at("velocity"), si_velocity, units)?,
-        None => Vec3::zeros(),
-    };
-    let angular_velocity = section.spin.unwrap_or([0.0; 3]);
-    finite(&at("spin"), &angular_velocity, "rad/s")?;
-    Ok((velocity, Units::to_lattice(angular_velocity, units.si_angular_velocity())))
+    let still = VectorInTime::Constant([0.0; 3]);
+    let (key, given) = (at("velocity"), section.velocity.as_ref().unwrap_or(&still));
+    let velocity =
+        in_time::vector(Subject::vector(&key, "m/s"), given, units, files, |si_velocity| {
+            super::velocity(&key, si_velocity, units)
+        })?;
+    let (key, given) = (at("spin"), section.spin.as_ref().unwrap_or(&still));
+    let spin = in_time::vector(Subject::vector(&key, "rad/s"), given, units, files, |si_spin| {
+        finite(&key, &si_spin, "rad/s")?;
+        Ok(Units::to_lattice(si_spin, units.si_angular_velocity()))
+    })?;
+    Ok((velocity, spin))
+}
+
+/// Errors if a free grain is given a motion that changes: it has the one that acts on it.
+fn only_at_start(key: &str, value: Option<&VectorInTime>) -> Result<(), Trouble> {
+    let Some(VectorInTime::Changing(_)) = value else { return Ok(()) };
+    let problem = "a free grain moves by what acts on it: this is its motion at the start";
+    let remedy = "give three numbers, or use `motion = \"prescribed\"`";
+    Err(Trouble::new(key, problem, remedy))
 }
 
 /// Density of a grain over that of the fluid, if it is free; else 1.

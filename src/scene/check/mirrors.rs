@@ -1,7 +1,7 @@
 //! Free grains at mirror planes (`free_slip` faces): whole, or cut in halves by the plane.
 
-use psmrt_reference::coupling::Gravity;
 use psmrt_reference::domain::{Domain, Face};
+use psmrt_reference::lattice::Vec3;
 
 use super::Trouble;
 use super::grains::GrainList;
@@ -14,11 +14,12 @@ const ON_PLANE: f64 = 1e-6;
 
 /// Which faces (`[axis][side]`) cut free grains in halves. Puts the centres of these exactly on the
 /// plane. Errors if a grain is cut off its middle, would leave the plane, or can be touched there by
-/// a grain that is not cut alike (of which the mirror image would be missing).
+/// a grain that is not cut alike (of which the mirror image would be missing). `gravity`: along each axis the largest that
+/// it ever is.
 pub(super) fn centred(
     domain: &Domain,
     list: &mut GrainList,
-    gravity: Option<&Gravity>,
+    gravity: &Vec3,
     units: &Units,
 ) -> Result<[[bool; 2]; 3], Trouble> {
     let mut found = [[false; 2]; 3];
@@ -55,14 +56,9 @@ pub(super) fn centred(
 }
 
 /// Errors unless all grains stay on the plane across `axis` at `plane`.
-fn alone(
-    list: &GrainList,
-    axis: usize,
-    plane: f64,
-    gravity: Option<&Gravity>,
-) -> Result<(), Trouble> {
+fn alone(list: &GrainList, axis: usize, plane: f64, gravity: &Vec3) -> Result<(), Trouble> {
     let name = ["x", "y", "z"][axis];
-    if gravity.is_some_and(|gravity| gravity.acceleration()[axis] != 0.0) {
+    if gravity[axis] != 0.0 {
         let problem = format!(
             "gravity pulls along {name} at a free grain whose centre lies on a mirror plane across \
              {name}: the image would be pulled the other way"
@@ -70,7 +66,7 @@ fn alone(
         let remedy = "set that component to 0, or move the grain off the plane";
         return Err(Trouble::new("gravity.acceleration", problem, remedy));
     }
-    for listed in &list.grains {
+    for (number, listed) in list.grains.iter().enumerate() {
         let is_on_it = (listed.centre[axis] - plane).abs() <= ON_PLANE;
         if !is_on_it {
             let problem = format!(
@@ -81,8 +77,11 @@ fn alone(
             return Err(listed.trouble(problem, remedy));
         }
         // The image has the opposite velocity along the normal, and the opposite angular velocity across it.
-        let across = (0..3).any(|other| other != axis && listed.angular_velocity[other] != 0.0);
-        if listed.velocity[axis] != 0.0 || across {
+        let leaves = |(velocity, angular_velocity): &(Vec3, Vec3)| {
+            let across = (0..3).any(|other| other != axis && angular_velocity[other] != 0.0);
+            velocity[axis] != 0.0 || across
+        };
+        if list.motions(number).iter().any(leaves) {
             let problem = format!(
                 "its centre lies on a mirror plane across {name}: it can neither move along {name} \
                  nor spin about another axis"

@@ -2,6 +2,7 @@
 //! one [`Trouble`] that names the key, what is allowed, and the remedy.
 
 mod arrays;
+pub mod attachment;
 mod balance;
 pub mod checkpoint;
 mod collision;
@@ -16,6 +17,7 @@ pub mod grain_list;
 pub mod grains;
 pub(crate) mod hardness;
 mod implicit;
+mod in_time;
 mod list_header;
 mod list_text;
 mod listed;
@@ -26,6 +28,7 @@ pub(crate) mod neighbours;
 pub(crate) mod numbers;
 pub mod permeability;
 pub mod records;
+mod signal_file;
 mod solid;
 pub mod stop;
 mod time;
@@ -39,12 +42,17 @@ use psmrt_reference::setup::{Setup, SetupError};
 
 use super::format::SceneFile;
 use super::format_run::{EngineSection, ExactName};
+use super::format_time::VectorInTime;
 use super::{EngineKind, Precision, Scene, Trouble};
 use crate::exact::PlanePoiseuille;
+use crate::in_time::{Drives, Signal};
 use crate::units::Units;
+use attachment::Attachment;
 use free::FreePart;
 use grains::GrainList;
+use in_time::Files;
 use numbers::{beyond, finite, positive, sane, shorter_step};
+use signal_file::Subject;
 
 /// Largest speed in lattice units that a scene may set: a Mach number of 0.35, beyond which the
 /// error of compressibility is above a tenth.
@@ -60,46 +68,72 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     sane(key, file.fluid.kinematic_viscosity, 1e-15..=1e15, "m2/s")?;
     let (units, tau) = time::units_and_tau(&file.time, &file.fluid, file.domain.dx)?;
     let collision = collision::collision(&file.collision, tau)?;
-    let faces = faces::faces(&file.faces, cells, &units)?;
+    let mut files = Files { folder, attachments: Vec::new() };
+    let (faces, face_signals) = faces::faces(&file.faces, cells, &units, &mut files)?;
     let domain = Domain::new(cells, faces).map_err(|error| faces::trouble(&error))?;
     let mut setup = Setup::fluid(domain, collision);
-    setup.body_force = match &file.body_force {
-        Some(section) => {
-            Some(acceleration("body_force.acceleration", section.acceleration, &units)?)
-        }
-        None => None,
-    };
+    faces::check_later(&setup, &face_signals)?;
+    let body_force = file.body_force.as_ref().map(|section| {
+        let key = "body_force.acceleration";
+        acceleration_in_time(key, &section.acceleration, &units, &mut files)
+    });
+    let body_force = body_force.transpose()?;
+    setup.body_force = body_force.as_ref().map(|signal| signal.at(0.0));
     let initial_velocity = match &file.initial {
         Some(initial) => velocity("initial.velocity", initial.velocity, &units)?,
         None => Vec3::zeros(),
     };
-    let mut list = GrainList::new(&file.grains, folder, &setup.domain, &units)?;
-    let free = free::free_part(file, &mut list, &setup.domain, tau, &units)?;
-    if let Some(force) = free.as_ref().and_then(|part| gravity_on_fluid(part, &setup.domain)) {
-        setup.body_force = Some(setup.body_force.unwrap_or_else(Vec3::zeros) + force);
+    let mut list = GrainList::new(&file.grains, &mut files, &setup.domain, &units)?;
+    let gravity = file.gravity.as_ref().map(|section| {
+        acceleration_in_time("gravity.acceleration", &section.acceleration, &units, &mut files)
+    });
+    let gravity = gravity.transpose()?;
+    let free = free::free_part(file, &mut list, gravity.as_ref(), &setup.domain, tau, &units)?;
+    let gravity_on_fluid = free.as_ref().and_then(|part| gravity_on_fluid(part, &setup.domain));
+    if let (Some(part), Some(gravity)) = (gravity_on_fluid, &gravity) {
+        setup.body_force =
+            Some(setup.body_force.unwrap_or_else(Vec3::zeros) + part * gravity.at(0.0));
     }
-    setup.solid_phase = solid::solid_phase(file.solid.as_ref(), list.solids(), free.is_some())?;
+    let still = Signal::Constant(Vec3::zeros());
+    let drives = Drives {
+        faces: face_signals,
+        body_force: body_force.unwrap_or_else(|| still.clone()),
+        gravity: gravity.unwrap_or(still),
+        gravity_on_fluid: gravity_on_fluid.unwrap_or(0.0),
+        prescribed: std::mem::take(&mut list.prescribed),
+    };
+    let drives = Some(drives).filter(Drives::varies);
+    let moves = free.is_some() || drives.as_ref().is_some_and(|all| !all.prescribed.is_empty());
+    let solids = (list.solids(), moves);
+    setup.solid_phase = solid::solid_phase(file.solid.as_ref(), solids, free.is_some())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
     implicit::check(&setup, free.as_ref())?;
     let records = records::records(&file.records, &setup, free.as_ref(), &units)?;
     let stop = stop::stop(&file.stop, &records, &units)?;
     let exact = match file.compare.as_ref().map(|section| section.exact) {
+        Some(ExactName::PlanePoiseuille) if drives.is_some() => {
+            let problem = "it is a steady flow, and values of this scene change in time";
+            let remedy = "remove [compare], or make them constant";
+            return Err(Trouble::new("compare.exact", problem, remedy));
+        }
         Some(ExactName::PlanePoiseuille) => Some(
             PlanePoiseuille::of(&setup, &units)
                 .map_err(|(problem, remedy)| Trouble::new("compare.exact", problem, remedy))?,
         ),
         None => None,
     };
-    records::files_differ(&records, &list.attachments, exact.is_some())?;
+    records::files_differ(&records, &files.attachments, exact.is_some())?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_default(),
         text: String::new(),
-        attachments: list.attachments,
+        attachments: files.attachments,
         units,
         si_reference_velocity: file.time.reference_velocity,
         checkpoint: checkpoint::interval(file.checkpoint.as_ref())?,
+        keeps_last_state: file.checkpoint.as_ref().is_none_or(|s| s.at_end != Some(false)),
         setup,
         free,
+        drives,
         operator_is_chosen: file.solid.as_ref().is_none_or(|section| section.operator.is_none()),
         initial_velocity,
         records,
@@ -159,15 +193,26 @@ fn acceleration(key: &str, si_acceleration: [f64; 3], units: &Units) -> Result<V
     Err(Trouble::new(key, problem, remedy))
 }
 
+/// An acceleration that may change in time, in lattice units.
+fn acceleration_in_time(
+    key: &str,
+    given: &VectorInTime,
+    units: &Units,
+    files: &mut Files,
+) -> Result<Signal<Vec3>, Trouble> {
+    let convert = |si_acceleration| acceleration(key, si_acceleration, units);
+    in_time::vector(Subject::vector(key, "m/s2"), given, units, files, convert)
+}
+
 /// The part of gravity that is a body force on the fluid, if one is.
-fn gravity_on_fluid(part: &FreePart, domain: &Domain) -> Option<Vec3> {
+fn gravity_on_fluid(part: &FreePart, domain: &Domain) -> Option<f64> {
     match part.settings.gravity? {
         Gravity::Reduced { .. } => None,
-        Gravity::Balanced { acceleration } => {
+        Gravity::Balanced { .. } => {
             let density = part.settings.fluid_density;
-            Some(balancing_force(domain, &part.grains, density, acceleration))
+            Some(balancing_force(domain, &part.grains, density, Vec3::x()).x)
         }
-        Gravity::OnFluidToo { acceleration } => Some(acceleration),
+        Gravity::OnFluidToo { .. } => Some(1.0),
     }
 }
 

@@ -10,7 +10,7 @@ use crate::scene::format_run::AxisName;
 use crate::units::Units;
 
 /// Gravity that heads are taken with where a scene has none, m/s2.
-pub const SI_GRAVITY: f64 = 9.81;
+const SI_GRAVITY: f64 = 9.81;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
@@ -67,10 +67,14 @@ pub(super) fn flow(
             "leave out `motion`, or let them lie on a face that the fluid passes (`pressure`)";
         return Err(Trouble::new(at("kind"), problem, remedy));
     }
+    Ok((axis, si_gravity(free, units)))
+}
+
+/// Gravity that heads are taken with, m/s2: that of the scene, or the usual one where it has none.
+pub fn si_gravity(free: Option<&FreePart>, units: &Units) -> f64 {
     let gravity = free.and_then(|part| part.settings.gravity);
-    let si_gravity =
-        gravity.map_or(0.0, |gravity| gravity.acceleration().norm() * units.si_acceleration());
-    Ok((axis, if si_gravity > 0.0 { si_gravity } else { SI_GRAVITY }))
+    let own = gravity.map(|gravity| gravity.acceleration().norm() * units.si_acceleration());
+    own.filter(|si_gravity| *si_gravity > 0.0).unwrap_or(SI_GRAVITY)
 }
 
 /// The same for a scene that names no axis. Errors if it has no such flow along just one axis.

@@ -5,8 +5,8 @@ use std::fmt;
 use psmrt_reference::domain::Domain;
 use psmrt_reference::setup::Setup;
 
+use super::Attachment;
 use super::free::FreePart;
-use super::grains::Attachment;
 use super::numbers::{absent, count, finite, needed, steps};
 use super::{Trouble, permeability};
 use crate::scene::format_run::{AxisName, FieldFormat, Quantity, RecordKind, RecordSection};
@@ -275,7 +275,7 @@ pub(super) fn files_differ(
     let owner = |made: &Made| match made.by {
         MadeBy::Run => "every run makes one of that name".to_owned(),
         MadeBy::Comparison => "the comparison with the exact solution has that name".to_owned(),
-        MadeBy::List(section) => format!("the copy of the list of grains[{section}] has that name"),
+        MadeBy::Copy(number) => format!("the copy of `{}` has that name", lists[number].key),
         MadeBy::Record(number) => format!("records[{number}] makes one of that name"),
     };
     let key = match later.by {

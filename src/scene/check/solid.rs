@@ -9,10 +9,11 @@ use super::Trouble;
 use super::numbers::{absent, needed};
 use crate::scene::format_grains::{CoverageName, OperatorName, SolidSection, WeightingName};
 
-/// The solid phase, if there are grains; `has_free`: some of them are free.
+/// The solid phase, if there are grains; `solids`: with whether one may move that is at rest at the start; `has_free`:
+/// some of them are free.
 pub(super) fn solid_phase(
     section: Option<&SolidSection>,
-    solids: Vec<Solid>,
+    (solids, can_move): (Vec<Solid>, bool),
     has_free: bool,
 ) -> Result<Option<SolidPhase>, Trouble> {
     if solids.is_empty() {
@@ -24,7 +25,7 @@ pub(super) fn solid_phase(
     }
     let section = section.cloned().unwrap_or_default();
     let name = section.operator.unwrap_or_else(|| {
-        let is_fixed = !has_free && !solids.iter().any(Solid::has_velocity);
+        let is_fixed = !can_move && !solids.iter().any(Solid::has_velocity);
         chosen(&section, is_fixed)
     });
     let operator = match name {

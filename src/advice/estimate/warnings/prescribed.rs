@@ -9,7 +9,7 @@ const MOST_WORK: u64 = 5_000_000;
 
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    if let Some(meeting) = Lookout::new(scene, 0).meeting_until(scene.stop.steps, MOST_WORK) {
+    if let Some(meeting) = Lookout::from_start(scene).meeting_until(scene.stop.steps, MOST_WORK) {
         let reason = format!("{}: the run stops there", meeting.said(scene));
         warnings.push(warning(reason, meeting.remedy(scene)));
     }

@@ -1,0 +1,29 @@
+//! Files that a scene names: a run keeps a copy of each.
+
+/// The contents of a file that a scene names.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attachment {
+    /// The key that names it.
+    pub key: String,
+    /// Name of the copy in the folder of a run.
+    pub file_name: String,
+    /// What is in it.
+    pub bytes: Vec<u8>,
+    /// Whether it has densities that nobody uses: its grains are not free.
+    pub unused_densities: bool,
+}
+
+impl Attachment {
+    /// The list of the `[[grains]]` section of this number.
+    pub(super) fn of_grains(section: usize, bytes: Vec<u8>, unused_densities: bool) -> Self {
+        let (key, file_name) = (format!("grains[{section}].file"), format!("grains_{section}.csv"));
+        Attachment { key, file_name, bytes, unused_densities }
+    }
+
+    /// Values in time that the key names: `faces.z_low.pressure.file` becomes `faces_z_low_pressure.csv`.
+    pub(super) fn of_values(key: &str, bytes: Vec<u8>) -> Self {
+        let stem = key.trim_end_matches(".file").replace(']', "").replace(['.', '['], "_");
+        let file_name = format!("{stem}.csv");
+        Attachment { key: key.to_owned(), file_name, bytes, unused_densities: false }
+    }
+}
