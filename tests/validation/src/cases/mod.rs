@@ -6,6 +6,7 @@
 //! Full-scale results are committed beside it with the command that made them.
 
 mod bench;
+mod boiling;
 mod cloud_settling;
 mod conformance;
 mod cost;
@@ -95,6 +96,7 @@ pub const CASES: &[Case] = &[
     sphere_arrays::CASE,
     sphere_drag::CASE,
     seepage::CASE,
+    boiling::CASE,
     stokes_settling::CASE,
     ten_cate::CASE,
     suspension::CASE,

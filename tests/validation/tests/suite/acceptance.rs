@@ -87,6 +87,11 @@ fn seepage_through_a_bed_holds_its_claims() {
 }
 
 #[test]
+fn a_boiling_bed_holds_its_claims() {
+    holds("boiling", &mut Budget::kernel(200_000_000));
+}
+
+#[test]
 fn sphere_arrays_hold_their_claims() {
     holds("sphere_arrays", &mut Budget::kernel(160_000_000));
 }
