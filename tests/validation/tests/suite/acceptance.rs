@@ -87,6 +87,11 @@ fn seepage_through_a_bed_holds_its_claims() {
 }
 
 #[test]
+fn permeability_holds_its_claims() {
+    holds("permeability", &mut Budget::kernel(95_000_000));
+}
+
+#[test]
 fn sphere_arrays_hold_their_claims() {
     holds("sphere_arrays", &mut Budget::kernel(160_000_000));
 }
