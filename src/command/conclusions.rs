@@ -123,9 +123,14 @@ pub(super) fn predicted(scene: &Scene) -> Option<[f64; 3]> {
 /// k and K.
 pub(super) fn in_words(found: &Seepage) -> String {
     let k = found.si_permeability();
+    let darcy = k / SI_DARCY;
     format!(
-        "k = {k:.3e} m2 ({:.4} darcy), K = {:.3e} m/s (g = {:.4} m/s2)",
-        k / SI_DARCY,
+        "k = {k:.3e} m2 ({} darcy), K = {:.3e} m/s (g = {:.2} m/s2)",
+        if (0.1..1e5).contains(&darcy.abs()) {
+            format!("{darcy:.2}")
+        } else {
+            format!("{darcy:.3e}")
+        },
         found.si_conductivity(),
         found.si_gravity
     )

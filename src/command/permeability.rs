@@ -221,10 +221,15 @@ impl Found {
             });
             if let Some(found) = convergence {
                 lines.push(format!(
-                    "  three grids: observed order {:.2}, Richardson {:.4e} m2, GCI of the finest {:.2} %",
+                    "  three grids: observed order {:.2}, Richardson {:.4e} m2, GCI of the finest {:.2} %{}",
                     found.order,
                     found.extrapolated,
-                    100.0 * found.gci
+                    100.0 * found.gci,
+                    if found.order < 1.0 {
+                        "; an order below 1 is chance: trust the GCI rather than the extrapolation"
+                    } else {
+                        ""
+                    }
                 ));
             }
         }

@@ -114,7 +114,7 @@ m/s2 where there is none; a darcy is 9.869e-13 m2. `reynolds` is U d/(ν (1 - po
 (dP/L) d porosity³/(ρ U² (1 - porosity)). Beside them what laws for equal spheres give at this porosity and Re:
 Kozeny & Carman's with 180, Beetstra et al. (2007) and Tang et al. (2015). Where Re is above 1 inertia counts, and k is
 that at this Re only. All are values of now: of a flow that is not steady yet, or of grains that move, they are no
-property of the bed. Before anything drives the flow k is not a number (`NaN`), and before it moves psi is not finite.
+property of the bed. Before anything drives the flow k is not a number (`NaN`), and before it moves psi means nothing (it may be `inf`).
 
 ";
 

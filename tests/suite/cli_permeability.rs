@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 use std::fs;
-use std::process::Output;
+use std::process::{Command, Output};
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
 use crate::scenes::water;
+use psmrt::scene::columns::PERMEABILITY_COLUMNS;
 use serde_json::Value;
 
 fn json(output: &Output) -> Value {
@@ -133,6 +134,39 @@ fn permeability_command_says_what_it_cannot_do() {
     let output = psmrt(&["permeability", names[0], "--set", "stop.steps=10", "--out", names[1]]);
     assert_eq!(output.status.code(), Some(3));
     assert!(stdout(&output).contains("NOT steady"), "{}", stdout(&output));
+}
+
+const PYTHON: &str = r#"
+import sys, numpy as np, pandas as pd
+path = sys.argv[1]
+table = pd.read_csv(path)
+assert list(table.columns) == sys.argv[2].split(","), list(table.columns)
+assert np.array_equal(np.genfromtxt(path, delimiter=",", skip_header=1), table.to_numpy(dtype=float), equal_nan=True)
+last = table.iloc[-1]
+k = 1e-6 * 1000 * last["superficial_velocity (m/s)"] / last["pressure_gradient (Pa/m)"]
+assert np.isclose(last["permeability (m2)"], k) and np.isfinite(last["psi"]), table
+print("read by pandas", pd.__version__)
+"#;
+
+#[test]
+#[ignore = "needs Python with `pip install pandas numpy`"]
+fn pandas_and_numpy_read_the_record() {
+    let folder = Folder::new("pandas");
+    let record = "[[records]]\nname = \"k\"\nkind = \"permeability\"\nevery_steps = 5\n";
+    let file = folder.write("scene.toml", array(&format!("{record}{FORCE}")));
+    let out = folder.path("out");
+    Budget::kernel(30_000).spend(50 * 512);
+    let names = [file.to_str().unwrap(), out.to_str().unwrap()];
+    let output = psmrt(&["run", names[0], "--set", "stop.steps=50", "--out", names[1]]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let titles = PERMEABILITY_COLUMNS.iter().map(|column| column.title());
+    let titles: Vec<String> =
+        ["time (s)".to_owned(), "step".to_owned()].into_iter().chain(titles).collect();
+    let table = out.join("k.csv");
+    let arguments = ["-c", PYTHON, table.to_str().unwrap(), &titles.join(",")];
+    let output = Command::new("python3").args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).contains("read by pandas"));
 }
 
 /// What a run concludes, by `what`.

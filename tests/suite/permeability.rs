@@ -242,7 +242,7 @@ fn a_bed_is_steady_about_when_check_says() {
             box_row(&scene, &engine)[3]
         };
         let [early, then, late] = [flux(0.1 * steps), flux(0.9 * steps), flux(steps)];
-        // It is called steady at 1e-4; an estimate of the rate that is off by a factor of two leaves the root of it, 1e-2.
+        // 1e-4 of the slowest known mode is left; a rate that is off by a factor of two leaves the root of that, 1e-2.
         assert!(
             (then / late - 1.0).abs() < 1e-2,
             "{then:e} after {steps} steps, {late:e} after twice"

@@ -221,9 +221,10 @@ every_steps = 20
 steps = 100
 "#;
     let text = water([12, 16, 20], 1e-5, rest);
-    let mut budget = Budget::oracle(2_310_000);
+    let mut budget = Budget::oracle(2_700_000);
     for (kind, more, endings, least) in [
         ("box", "every_steps = 1", &["r.csv", "r.svg"][..], 0.5),
+        ("permeability", "axis = \"x\"\nevery_steps = 1", &["r.csv", "r.svg"], 0.5),
         ("profile", "axis = \"x\"\nevery_steps = 5", &["r.csv", "r.svg"], 0.5),
         ("loads", "every_steps = 1", &["r.csv", "r.svg"], 0.3),
         ("fields", "formats = [\"vti\", \"npy\"]\nevery_steps = 50", &[".vti", ".npy"], 0.9),

@@ -17,6 +17,7 @@ mod found;
 mod kernel_parity;
 mod kernel_speed;
 pub mod operators;
+mod permeability;
 mod poiseuille;
 mod seepage;
 mod sphere_arrays;
@@ -50,6 +51,7 @@ use psmrt::table::{Table, TableError};
 pub use bench::{Bench, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use found::drawn;
+pub use permeability::beds::{BedOfSpheres, RANDOM as PERMEABILITY_BED};
 pub use psmrt::seepage::laws::{BED_LAWS, BedLaw};
 pub use seepage::bed::{BedRun, Packing};
 pub use sphere_drag::stream::Stream;
@@ -96,6 +98,7 @@ pub const CASES: &[Case] = &[
     sphere_arrays::CASE,
     sphere_drag::CASE,
     seepage::CASE,
+    permeability::CASE,
     boiling::CASE,
     stokes_settling::CASE,
     ten_cate::CASE,

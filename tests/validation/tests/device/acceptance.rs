@@ -35,6 +35,10 @@ fn seepage_through_a_bed_holds_its_claims() {
     holds("seepage", &mut Budget::kernel(28_000_000));
 }
 
+fn permeability_holds_its_claims() {
+    holds("permeability", &mut Budget::kernel(95_000_000));
+}
+
 fn sphere_arrays_hold_their_claims() {
     holds("sphere_arrays", &mut Budget::kernel(90_000_000));
 }
@@ -61,6 +65,7 @@ pub const CLAIMS: &[Claim] = &[
     ("flow_in_a_duct_holds_its_claims", flow_in_a_duct_holds_its_claims),
     ("a_sphere_in_a_stream_holds_its_claims", a_sphere_in_a_stream_holds_its_claims),
     ("seepage_through_a_bed_holds_its_claims", seepage_through_a_bed_holds_its_claims),
+    ("permeability_holds_its_claims", permeability_holds_its_claims),
     ("sphere_arrays_hold_their_claims", sphere_arrays_hold_their_claims),
     ("a_settling_grain_holds_its_claims", a_settling_grain_holds_its_claims),
     ("a_settling_suspension_holds_its_claims", a_settling_suspension_holds_its_claims),

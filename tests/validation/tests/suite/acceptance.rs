@@ -87,6 +87,11 @@ fn seepage_through_a_bed_holds_its_claims() {
 }
 
 #[test]
+fn permeability_holds_its_claims() {
+    holds("permeability", &mut Budget::kernel(95_000_000));
+}
+
+#[test]
 fn a_boiling_bed_holds_its_claims() {
     holds("boiling", &mut Budget::kernel(200_000_000));
 }
