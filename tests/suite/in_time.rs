@@ -148,7 +148,7 @@ fn the_momentum_of_fluid_and_grains_stays_under_a_balanced_gravity_that_changes(
     ));
     let scene = scene(&text);
     let mut engine = open(EngineName::Cpu, &scene, None, false).unwrap();
-    let domain = scene.setup.domain.clone();
+    let domain = scene.setup.domain;
     let cells = domain.cell_count() as f64;
     let mut first = None;
     for step in 0..60 {
