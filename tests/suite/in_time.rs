@@ -8,6 +8,7 @@ use crate::driven::in_time as driven;
 use crate::scenes::{read, scene, thick, water};
 use psmrt::engine::{Block, EngineName, open};
 use psmrt::in_time::Signal;
+use psmrt_reference::drive::FaceValue;
 use psmrt_reference::lattice::{Vec3, momentum};
 
 #[test]
@@ -163,6 +164,36 @@ fn the_momentum_of_fluid_and_grains_stays_under_a_balanced_gravity_that_changes(
         let off = (whole - start).norm();
         assert!(off < 1e-10, "step {step}: momentum has changed by {off:e}");
         budget.spend(12 * 12 * 12);
+        engine.step(1).unwrap();
+    }
+}
+
+#[test]
+fn a_step_has_the_force_of_its_beginning_and_the_wall_and_pressure_of_its_middle() {
+    let mut budget = Budget::kernel(500);
+    // Steps of 1e-5 s; a velocity of 1 is 1 m/s, an acceleration of 1 is 1e5 m/s², a pressure of 1 is 1000 Pa: p = ρ/3.
+    let scene = scene(&water(
+        [2, 4, 4],
+        1e-5,
+        "[faces]\nz_low = { kind = \"wall\", velocity = { from = [0.0, 0.0, 0.0], to = [0.1, 0.0, 0.0], end = 1e-4 } }\n\
+         z_high = { kind = \"pressure\", pressure = { from = 0.0, to = 10.0, end = 1e-4 } }\n[body_force]\n\
+         acceleration = { from = [0.0, 0.0, 0.0], to = [100.0, 0.0, 0.0], end = 1e-4 }\n[stop]\nsteps = 9\n",
+    ));
+    let mut engine = open(EngineName::Cpu, &scene, None, false).unwrap();
+    for step in 0..12_u32 {
+        let drive = engine.setup().drive();
+        let share = |time: f64| (time / 10.0).min(1.0);
+        let (start, middle) = (share(f64::from(step)), share(f64::from(step) + 0.5));
+        let force = drive.body_force.unwrap().x;
+        assert!((force - 1e-3 * start).abs() < 1e-17, "step {step}: force {force}");
+        let (FaceValue::Velocity(wall), FaceValue::Density(density)) =
+            (drive.faces[2][0], drive.faces[2][1])
+        else {
+            panic!("{drive:?}")
+        };
+        assert!((wall.x - 0.1 * middle).abs() < 1e-15, "step {step}: wall {wall}");
+        assert!((density - 1.0 - 0.03 * middle).abs() < 1e-14, "step {step}: density {density}");
+        budget.spend(32);
         engine.step(1).unwrap();
     }
 }
