@@ -173,11 +173,16 @@ fn drag_coefficient(scene: &Scene, engine: &Coupled, end: End) -> Option<Conclus
         Face::VelocityInlet { velocity } => Some(velocity),
         _ => None,
     });
-    let stream = inlets.reduce(|_, _| Vec3::repeat(f64::NAN)).unwrap_or_default();
+    let inlets: Vec<Vec3> = inlets.collect();
+    let stream = match inlets[..] {
+        [] => Vec3::zeros(),
+        [one] => one,
+        // Several inlets make no stream.
+        _ => return None,
+    };
     let past = stream - solid.velocity;
     let speed = past.norm();
-    // Several inlets make no stream.
-    if !(speed > 0.0) {
+    if speed == 0.0 {
         return None;
     }
     let force = engine.loads().first()?.force.dot(&past) / speed / share;
@@ -217,7 +222,7 @@ fn settling_velocity(scene: &Scene, engine: &Coupled) -> Option<Conclusion> {
     let (&[number], g) = (&part.solids[..], acceleration.norm()) else { return None };
     let solid = solids.get(number)?;
     let is_alone = solids.len() == 1 && crate::output::grain_means::row(scene, engine)[8] == 0.0;
-    if !(g > 0.0) || !is_alone || system.grains().len() != 1 {
+    if g == 0.0 || !is_alone || system.grains().len() != 1 {
         return None;
     }
     let along = acceleration / g;
@@ -237,9 +242,9 @@ fn settling_velocity(scene: &Scene, engine: &Coupled) -> Option<Conclusion> {
     let is_final = left.abs() <= FINAL;
     let verdict = if is_final { "final" } else { "NOT final" };
     let text = format!(
-        "settling velocity: {si_speed:.4e} m/s along gravity, Re {re:.3}; {verdict}: {:.1} % of the weight in water is not \
-         carried by the drag",
-        100.0 * left
+        "settling velocity: {si_speed:.4e} m/s along gravity, Re {re:.3}; {verdict}: the drag carries {:.1} % of the weight in \
+         water",
+        100.0 * (1.0 - left)
     );
     let json = json!({
         "what": "settling_velocity", "velocity_m_per_s": si_speed, "reynolds": re,

@@ -67,7 +67,7 @@ pub fn permeability(request: &PermeabilityRequest) -> Result<(), CommandError> {
         done.push(run(request, &folder, (grid, axis), scene)?);
     }
     let found = Found::of(&done, &axes, request.tensor);
-    let facts = found.to_json(&done, folder.path().display().to_string());
+    let facts = found.to_json(&done, &folder.path().display().to_string());
     write(&folder.path().join(RESULTS), |path| {
         atomic::write(path, |out| out.write_all(format!("{facts:#}\n").as_bytes()))
     })?;
@@ -247,7 +247,7 @@ impl Found {
         lines.join("\n")
     }
 
-    fn to_json(&self, done: &[Done], folder: String) -> Json {
+    fn to_json(&self, done: &[Done], folder: &str) -> Json {
         let runs: Vec<Json> = done
             .iter()
             .map(|run| {
