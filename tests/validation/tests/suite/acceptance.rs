@@ -93,7 +93,7 @@ fn permeability_holds_its_claims() {
 
 #[test]
 fn a_boiling_bed_holds_its_claims() {
-    holds("boiling", &mut Budget::kernel(200_000_000));
+    holds("boiling", &mut Budget::kernel(240_000_000));
 }
 
 #[test]
