@@ -41,7 +41,7 @@ pub fn rows(scene: &Scene, engine: &Coupled, axis: usize, count: usize) -> Vec<[
             [
                 layer.start as f64 * units.si_dx,
                 layer.end as f64 * units.si_dx,
-                planes.pores(layer.clone()) / volume,
+                planes.pores(layer) / volume,
                 pressures[number],
                 (si_driving - slope) / weight,
                 velocity.x,

@@ -158,7 +158,7 @@ fn pressure_falls_by_the_same_gradient_in_every_layer_of_a_channel_between_two_h
 
 #[test]
 fn walls_of_a_channel_bear_the_force_that_drives_it() {
-    let mut budget = Budget::oracle(250_000);
+    let mut budget = Budget::kernel(250_000);
     let rest = format!(
         "{FLOOR_AND_LID}[body_force]\nacceleration = [0.01, 0.0, 0.0]\n[stop]\nsteps = 2\n"
     );

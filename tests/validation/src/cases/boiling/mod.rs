@@ -23,7 +23,7 @@ pub const CASE: Case = Case {
         "i/i_c is dP A/W'. Rise: of the mean height of the grains above that at the start of the flow, in diameters.",
     ],
     scenes: &["scene.toml"],
-    literature: &[],
+    literature: &["literature.csv"],
     rows: "expected.csv",
     studies: &[],
     units: "time_s in seconds; i_over_critical, base_over_weight and rise_diameters without units",
@@ -135,13 +135,16 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
     Ok(claims)
 }
 
-fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
+fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let mut figure = Figure::new(
         "What rests on the sieve as the head rises and falls",
         Axis::linear("i/i_c").range(0.0, 1.4),
         Axis::linear("force on the sieve over weight less buoyancy").range(-0.05, 1.05),
     )
-    .with(Series::dashed("exact: 1 - i/i_c", vec![(0.0, 1.0), (1.0, 0.0), (1.4, 0.0)]));
+    .with(Series::dashed(
+        "exact: 1 - i/i_c",
+        golden.table("literature.csv")?.points("i_over_critical", "base_over_weight")?,
+    ));
     let engines = rows.values("engine")?;
     // Every tenth row: marks side by side.
     let thinned = |engine: &str, column: usize| -> Result<Vec<(f64, f64)>, CaseError> {
