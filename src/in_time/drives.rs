@@ -80,7 +80,7 @@ impl Prescribed {
 pub struct Drives {
     /// The faces, `[axis][side]`, the low side first.
     pub faces: [[FaceSignal; 2]; 3],
-    /// Acceleration of the fluid by [body_force].
+    /// Acceleration of the fluid by `body_force`.
     pub body_force: Signal<Vec3>,
     /// Gravity.
     pub gravity: Signal<Vec3>,
