@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::scene::check::permeability::si_gravity;
 
 /// The first cell of each of `count` layers of whole cells, as equal as can be, and the end of the last.
-pub fn bounds(cells: usize, count: usize) -> Vec<usize> {
+fn bounds(cells: usize, count: usize) -> Vec<usize> {
     (0..=count).map(|layer| layer * cells / count).collect()
 }
 

@@ -137,7 +137,7 @@ pub struct StopSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SteadySection {
-    /// Name of a record of kind `box`, `grain_means`, `loads` or `permeability`.
+    /// Name of a record of kind `box`, `grain_means`, `contact_means`, `loads` or `permeability`.
     pub record: String,
     /// One of its columns, for example `superficial_velocity_x`; of `loads` a component of force, summed over all
     /// grains.

@@ -87,15 +87,16 @@ fn unfit(named: Option<&Record>, records: &[Record]) -> (String, String) {
     let fit: Vec<_> = records.iter().filter(|r| can_be_steady(r)).map(|r| &r.name).collect();
     let others = match fit.is_empty() {
         true => {
-            "add one of kind `box`, `grain_means`, `loads` or `permeability` with `every_steps = 100`, say"
+            "add one of kind `box`, `grain_means`, `contact_means`, `loads` or `permeability` with `every_steps = 100`, say"
         }
         false => &format!("those that can become steady are: {fit:?}"),
     };
     let (problem, remedy) = match named {
         None => ("there is no record of that name", others),
-        Some(record) if columns(record).is_none() => {
-            ("that record is not of kind `box`, `grain_means`, `loads` or `permeability`", others)
-        }
+        Some(record) if columns(record).is_none() => (
+            "that record is not of kind `box`, `grain_means`, `contact_means`, `loads` or `permeability`",
+            others,
+        ),
         Some(_) => (
             "that record is taken only once, at the end: steady is what no longer changes from row \
              to row",
