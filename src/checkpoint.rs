@@ -37,7 +37,7 @@ const ANY_VERSION: &[u8] = b"PSMRTCK";
 const KEPT: usize = 2;
 
 /// A header longer than this is no header.
-const MAX_HEADER: u64 = 1 << 20;
+const MAX_HEADER: u64 = 1 << 26;
 
 /// A checkpoint that cannot be used.
 #[derive(Debug, Error)]

@@ -26,6 +26,7 @@
 //! | [`in_time`] | values that change in time |
 //! | [`input`] | reading of files that the user names |
 //! | [`quote`] | how the user's text stands in messages |
+//! | [`npy`] | reading of NumPy arrays |
 //! | [`machine`] | what this machine has |
 //! | [`provenance`] | which commit results come from, and which day |
 
@@ -48,6 +49,7 @@ pub mod input;
 pub mod kernel;
 pub mod lanes;
 pub mod machine;
+pub mod npy;
 pub mod output;
 pub mod packing;
 pub mod provenance;

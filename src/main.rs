@@ -18,6 +18,7 @@ use psmrt::command::plan::{PlanRequest, Wanted};
 use psmrt::command::resume::ResumeRequest;
 use psmrt::command::run::RunRequest;
 use psmrt::command::say::{say, say_bytes, tell};
+use psmrt::command::sweep::SweepRequest;
 use psmrt::command::{self, CommandError};
 use psmrt::engine::EngineName;
 use psmrt::quote;
@@ -169,6 +170,29 @@ Examples:
         #[command(flatten)]
         engine: EngineArguments,
     },
+    /// Runs a scene with each combination of some values, and leaves one table of what the runs have shown
+    #[command(
+        after_help = "The same command with the --out of a sweep goes on with it, and with more values adds runs.
+
+Examples:
+  psmrt sweep docs/sand.toml --over time.tau=0.55,0.6,0.8 --out out/sand_tau
+  psmrt sweep scene.toml --over fluid.kinematic_viscosity=1e-6,2e-6 --over collision.model=mrt,srt"
+    )]
+    Sweep {
+        /// Scene file (TOML)
+        scene: PathBuf,
+        /// A key and its values; can be given several times, for all combinations
+        #[arg(long, value_name = "KEY=VALUE,VALUE,...", required = true)]
+        over: Vec<String>,
+        /// Folder for the table and the runs [default: out/<name of the scene>-sweep, numbered]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+        /// Changes a value of all runs; can be given several times
+        #[arg(long, value_name = "KEY=VALUE")]
+        set: Vec<String>,
+        #[command(flatten)]
+        engine: EngineArguments,
+    },
     /// Now `cargo validate report`
     #[command(hide = true)]
     Report(Former),
@@ -271,6 +295,10 @@ fn dispatch(command: Command, json: bool) -> Result<(), CommandError> {
             let set = engine.added_to(set)?;
             let request = PermeabilityRequest { scene, set, out, tensor, refine, json };
             command::permeability::permeability(&request)
+        }
+        Command::Sweep { scene, over, out, set, engine } => {
+            let set = engine.added_to(set)?;
+            command::sweep::sweep(&SweepRequest { scene, set, over, out, json })
         }
         Command::Conformance { command } => command::conformance::conformance(&command, json),
         Command::Oracle { command } => {

@@ -15,6 +15,7 @@ use crate::checkpoint::{self, Progress};
 use crate::courses::Lookout;
 use crate::engine::Coupled;
 use crate::output::folder::RunFolder;
+use crate::output::load_means::LoadSums;
 use crate::output::records::Recorder;
 use crate::scene::names;
 use crate::scene::{Interval, OutputInterval, Scene};
@@ -134,6 +135,9 @@ impl<'a> Run<'a> {
                 // All are looked at before one is changed.
                 let mut recorders = reopen(scene, path, progress).map_err(RunError::Table)?;
                 recorders.iter_mut().try_for_each(Recorder::go_on)?;
+                for (recorder, saved) in recorders.iter_mut().zip(&progress.sums) {
+                    recorder.sums = LoadSums::load(saved);
+                }
                 recorders
             }
         };
@@ -152,6 +156,9 @@ impl<'a> Run<'a> {
         if let Err(stop) = engine.step(until - now) {
             let grain = stopped_grain::explained(&stop, self.scene, engine);
             return Err(grain.map_or(RunError::Stopped(stop), |stop| Box::new(stop).into()));
+        }
+        for recorder in self.recorders.iter_mut().filter(|recorder| recorder.record.averages) {
+            recorder.sums.add(engine);
         }
         match meeting {
             None => Ok(()),
@@ -233,6 +240,10 @@ impl<'a> Run<'a> {
             Interval::Steps(interval) => after(interval),
             Interval::Time(_) => u64::MAX,
         };
+        if self.scene.records.iter().any(|record| record.averages) {
+            // The loads of each step are summed.
+            return now + 1;
+        }
         let batch = (BATCH_UPDATES / self.scene.setup.domain.cell_count() as u64).max(1);
         records.fold(checkpoint.min(now + batch).min(self.scene.stop.steps), u64::min)
     }
@@ -249,7 +260,9 @@ impl<'a> Run<'a> {
     fn save_into(&mut self, folder: &RunFolder, engine: &mut Coupled) -> Result<(), RunError> {
         engine.check()?;
         let tables = self.recorders.iter_mut().map(Recorder::sync).collect::<io::Result<_>>()?;
-        let progress = Progress { tables, steady: self.steady.as_ref().map(steady::Watch::save) };
+        let sums = self.recorders.iter().map(|recorder| recorder.sums.save()).collect();
+        let steady = self.steady.as_ref().map(steady::Watch::save);
+        let progress = Progress { tables, sums, steady };
         checkpoint::save(folder, self.scene, engine, progress)?;
         Ok(())
     }

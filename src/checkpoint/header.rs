@@ -41,6 +41,9 @@ pub struct InputFile {
 pub struct Progress {
     /// What each record's table holds.
     pub tables: Vec<Mark>,
+    /// What each record has summed since its last row (of averaged loads; of others nothing).
+    #[serde(default)]
+    pub sums: Vec<Vec<u64>>,
     /// What the steady-state criterion has seen, if there is one.
     pub steady: Option<SteadyWatch>,
 }
@@ -123,8 +126,8 @@ fn inputs(scene: &Scene) -> Vec<InputFile> {
 
 /// A sum of what has been made of a scene, to the last bit of each number.
 fn made(scene: &Scene) -> u64 {
-    let Scene { setup, free, initial_velocity, records, stop, .. } = scene;
-    let mut made = format!("{setup:?} {free:?} {initial_velocity:?} {records:?} {stop:?}");
+    let Scene { setup, free, initial, records, stop, .. } = scene;
+    let mut made = format!("{setup:?} {free:?} {initial:?} {records:?} {stop:?}");
     if let Some(drives) = &scene.drives {
         made.push_str(&format!(" {drives:?}"));
     }

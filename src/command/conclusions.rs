@@ -1,5 +1,5 @@
 //! What the records of a run mean, as far as that can be concluded from one run: the permeability of a bed, the drag
-//! coefficient of a sphere in a stream, the settling velocity of a grain. Each says whether it is steady.
+//! coefficient of a sphere in a stream, the settling velocity of a grain, the viscosity of a sheared mixture. Each says whether it is steady.
 
 use std::f64::consts::PI;
 
@@ -9,6 +9,7 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use psmrt_reference::solids::Shape;
 use serde_json::{Value as Json, json};
 
+use super::viscosity::viscosity_of_mixture;
 use crate::advice::estimate::outlook;
 use crate::engine::Coupled;
 use crate::output::records::seepage_now;
@@ -34,12 +35,13 @@ pub(super) fn conclusions(scene: &Scene, engine: &Coupled, end: End) -> Vec<Conc
         permeability(scene, engine, end),
         drag_coefficient(scene, engine, end),
         settling_velocity(scene, engine),
+        viscosity_of_mixture(scene, engine, end),
     ];
     found.into_iter().flatten().collect()
 }
 
 /// Whether the criterion of the scene was met, if it has one.
-fn is_steady(end: End) -> Option<bool> {
+pub(super) fn is_steady(end: End) -> Option<bool> {
     match end {
         End::Steady { .. } => Some(true),
         End::NotSteady { .. } => Some(false),
@@ -47,7 +49,7 @@ fn is_steady(end: End) -> Option<bool> {
     }
 }
 
-fn steady_words(end: End) -> &'static str {
+pub(super) fn steady_words(end: End) -> &'static str {
     match is_steady(end) {
         Some(true) => "steady",
         Some(false) => "NOT steady",

@@ -18,7 +18,7 @@ use crate::checkpoint::{self, Progress};
 use crate::engine::Coupled;
 use crate::exact::Comparison;
 use crate::output::folder::RunFolder;
-use crate::output::{atomic, bed_plots, csv, grain_plots, plot};
+use crate::output::{atomic, bed_plots, csv, grain_list, grain_plots, plot};
 use crate::run::{End, run as run_scene};
 use crate::scene::names;
 use crate::scene::{Scene, What};
@@ -36,7 +36,7 @@ pub(super) struct CarriedOut {
     /// Beside an exact solution.
     found: Option<Comparison>,
     /// What `run.json` says.
-    facts: Value,
+    pub facts: Value,
     first_step: u64,
     seconds: f64,
 }
@@ -79,6 +79,11 @@ pub(super) fn carried_out(
         None => None,
     };
     draw_records(scene, path)?;
+    if let Some(list) = grain_list::of_run(scene, engine) {
+        write(&path.join(names::GRAINS_AT_END), |path| {
+            atomic::write(path, |out| out.write_all(list.as_bytes()))
+        })?;
+    }
     // These come last: a run that says that it has finished has all its files.
     let word = match end {
         End::Steady { .. } => "steady",

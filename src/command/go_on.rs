@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use serde_json::json;
+use serde_json::{Value, json};
 use toml_edit::{DocumentMut, Item};
 
 use super::execute::{execute, held};
@@ -86,13 +86,18 @@ pub(super) fn go_on(request: &ResumeRequest) -> Result<(), CommandError> {
         "folder": path.display().to_string(), "run": folder.id(), "step": engine.steps(),
         "changes": request.set,
     });
-    // First of all: a folder without a state of its own is then known to have no beginning of its own either.
-    write(&new.path().join(ORIGIN), |path| {
-        atomic::write(path, |out| out.write_all(format!("{origin:#}\n").as_bytes()))
-    })?;
+    keep_origin(&new, &origin)?;
     write(new.path(), |_| new.keep(&scene))?;
     tell(&format!("going on from step {} ({})", engine.steps(), state.display()));
     execute(&scene, &mut engine, &new, None, request.json)
+}
+
+/// Keeps from where a run goes on. First of all: a folder without a state of its own is then known to have no beginning of
+/// its own either.
+pub(super) fn keep_origin(folder: &RunFolder, origin: &Value) -> Result<(), CommandError> {
+    write(&folder.path().join(ORIGIN), |path| {
+        atomic::write(path, |out| out.write_all(format!("{origin:#}\n").as_bytes()))
+    })
 }
 
 /// Why a key cannot be changed, if it cannot.

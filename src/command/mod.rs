@@ -1,5 +1,6 @@
 //! The commands, one a file, and what they share: how they fail.
 
+mod beginning;
 pub mod check;
 mod comparison;
 mod conclusions;
@@ -19,6 +20,9 @@ pub mod run;
 pub mod say;
 pub mod scene_reference;
 mod summary;
+pub mod sweep;
+mod sweep_plan;
+mod viscosity;
 
 use std::path::Path;
 
@@ -105,6 +109,24 @@ pub enum CommandError {
         /// The offer of the older one; empty if there is none.
         older: String,
     },
+    /// Runs of a sweep that have not come to their end.
+    #[error(
+        "{failed} of {of} runs failed; the table says why, and each run's folder has what it had computed"
+    )]
+    SweepFailed {
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        of: usize,
+    },
+    /// The user has interrupted a run of a sweep; its state is saved.
+    #[error(
+        "interrupted; the state is saved: give the same command with --out {folder}, which goes on"
+    )]
+    SweepInterrupted {
+        /// The folder of the sweep.
+        folder: String,
+    },
     /// The user has interrupted the run; its state is saved.
     #[error("interrupted; the state is saved: psmrt resume {folder}")]
     Interrupted {
@@ -145,9 +167,10 @@ impl CommandError {
             CommandError::Run(_)
             | CommandError::Write { .. }
             | CommandError::CandidateFailed
+            | CommandError::SweepFailed { .. }
             | CommandError::Csv(_) => 1,
             CommandError::NotSteady => 3,
-            CommandError::Interrupted { .. } => 130,
+            CommandError::Interrupted { .. } | CommandError::SweepInterrupted { .. } => 130,
         }
     }
 }

@@ -7,6 +7,7 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, value};
 use super::CommandError;
 use crate::scene::Scene;
 use crate::scene::edit::{put_on_grid, scale_steps, section, set_tau};
+use crate::scene::initial::Initial;
 use crate::seepage::bed::layer;
 use crate::seepage::permeability::Seepage;
 
@@ -68,6 +69,10 @@ pub(super) fn text(
     }
     document.remove("records");
     document.remove("compare");
+    if let Initial::Cells(_) | Initial::Run(_) = scene.initial {
+        // It fits one grid only, and the flow that comes of it is the same.
+        document.remove("initial");
+    }
     let tolerance = scene.stop.steady.as_ref().map_or(TOLERANCE, |s| s.tolerance.min(TOLERANCE));
     let mut steady = toml_edit::InlineTable::new();
     steady.insert("record", "permeability".into());

@@ -49,19 +49,33 @@ pub fn resume(request: &ResumeRequest) -> Result<(), CommandError> {
     }
     let scene = Scene::load(&file, &[])?;
     let mut engine = engine(&scene, &file, false)?;
-    let progress = go_back(request, &folder, &scene, &mut engine)?;
-    if progress.is_none() {
-        check_origin(path)?;
-        tell("there is no checkpoint yet: the run starts again from its beginning");
-        for moved in write(path, |_| set_aside(&scene, &folder))? {
-            tell(&format!("what it had written is set aside as {}", moved.display()));
-        }
-    }
+    let named = request.checkpoint.as_ref();
+    let progress = where_it_goes_on(named, &folder, &scene, &mut engine)?;
     execute(&scene, &mut engine, &folder, progress.as_ref(), request.json)
 }
 
+/// Puts the engine where a run goes on, at its newest checkpoint or the one that is named; at its beginning, and then there
+/// is no progress, if it has none.
+pub(super) fn where_it_goes_on(
+    named: Option<&PathBuf>,
+    folder: &RunFolder,
+    scene: &Scene,
+    engine: &mut Coupled,
+) -> Result<Option<Progress>, CommandError> {
+    let progress = go_back(named, folder, scene, engine)?;
+    if progress.is_none() {
+        let path = folder.path();
+        check_origin(path)?;
+        tell("there is no checkpoint yet: the run starts again from its beginning");
+        for moved in write(path, |_| set_aside(scene, folder))? {
+            tell(&format!("what it had written is set aside as {}", moved.display()));
+        }
+    }
+    Ok(progress)
+}
+
 /// What a run says about itself, if it has come to its end.
-fn finished(folder: &Path) -> Result<Option<Value>, CommandError> {
+pub(super) fn finished(folder: &Path) -> Result<Option<Value>, CommandError> {
     let file = folder.join(FACTS);
     let unusable = |error: String| {
         CommandError::Resume(format!(
@@ -94,13 +108,13 @@ fn say_finished(folder: &Path, facts: &Value, json: bool) {
 
 /// Puts the engine into the state of the checkpoint; `None` if there is none.
 fn go_back(
-    request: &ResumeRequest,
+    named: Option<&PathBuf>,
     folder: &RunFolder,
     scene: &Scene,
     engine: &mut Coupled,
 ) -> Result<Option<Progress>, CommandError> {
     let known = checkpoint::list(folder.path()).map_err(unusable)?;
-    let Some(path) = request.checkpoint.as_ref().or(known.last()) else { return Ok(None) };
+    let Some(path) = named.or(known.last()) else { return Ok(None) };
     let loaded = usable(path, folder, scene, engine)
         .and_then(|_| checkpoint::load(path, folder, scene, engine).map_err(unusable));
     match loaded {

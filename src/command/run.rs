@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::beginning::with_fluid_of_run;
 use super::execute::{execute, held};
+use super::go_on::keep_origin;
 use super::say::tell;
 use super::{CommandError, engine, kind_of, write};
 use crate::output::folder::{RunFolder, scene_name};
@@ -26,12 +28,16 @@ pub struct RunRequest {
 /// Runs a scene.
 pub fn run(request: &RunRequest) -> Result<(), CommandError> {
     let scene = Scene::load(&request.scene, &request.set)?;
+    let (scene, origin) = with_fluid_of_run(scene, &request.scene)?;
     let mut engine = engine(&scene, &request.scene, request.profile)?;
     if request.profile && engine.profile().is_none() {
         tell(&format!("--profile: the engine {} does not keep its times", engine.name()));
     }
     let scene = scene.as_run(kind_of(&engine))?;
     let folder = held(RunFolder::make(request.out.as_deref(), &scene_name(&request.scene))?);
+    if let Some(origin) = &origin {
+        keep_origin(&folder, origin)?;
+    }
     write(folder.path(), |_| folder.keep(&scene))?;
     execute(&scene, &mut engine, &folder, None, request.json)
 }

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::{Populations, Vec3};
 
+use crate::npy::{self, NpyError};
+
 /// An array in C order (the last index runs fastest).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Array {
@@ -23,6 +25,11 @@ impl Array {
         let shape = shape.into();
         assert_eq!(shape.iter().product::<usize>(), values.len(), "values for shape {shape:?}");
         Array { shape, values }
+    }
+
+    /// That of a NumPy file.
+    pub fn of_npy(bytes: &[u8]) -> Result<Self, NpyError> {
+        npy::read(bytes).map(|(shape, values)| Array { shape, values })
     }
 
     /// Values along one axis.

@@ -9,13 +9,13 @@ use std::path::Path;
 
 use thiserror::Error;
 
+use super::KIT_VERSION;
 use super::array::Array;
 use super::checksums::{self, KIT_LIMIT};
 use super::given::inputs;
 use super::judged::ratio;
 use super::kit::{Kit, KitError};
 use super::manifest::{ArrayEntry, FORMAT, Manifest, candidate_schema, kit_schema};
-use super::{KIT_VERSION, npy};
 use crate::{input, quote};
 
 /// A folder that cannot be used. Its texts name the file and the remedy.
@@ -157,7 +157,7 @@ fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>, FilesError> {
 /// Reads an array.
 pub(super) fn read_array(path: &Path) -> Result<Array, FilesError> {
     let bytes = read_bytes(path, LARGEST_ARRAY)?;
-    npy::read(&bytes).map_err(|error| FilesError::bad(path, &error, EXPORT_ANEW))
+    Array::of_npy(&bytes).map_err(|error| FilesError::bad(path, &error, EXPORT_ANEW))
 }
 
 /// Reads the manifest of a kit of this version.

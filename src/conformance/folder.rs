@@ -11,7 +11,6 @@ use super::files::{self, FilesError, json_bytes, npy_bytes, write_all};
 use super::judged::Submission;
 use super::kit::Kit;
 use super::manifest::CandidateManifest;
-use super::npy;
 use super::order::DirectionOrder;
 use crate::{input, quote};
 
@@ -106,5 +105,5 @@ fn file_name(path: &Path) -> String {
 
 fn array(path: &Path) -> Result<Array, String> {
     let bytes = input::read(path, files::LARGEST_ARRAY).map_err(|error| error.to_string())?;
-    npy::read(&bytes).map_err(|error| error.to_string())
+    Array::of_npy(&bytes).map_err(|error| error.to_string())
 }

@@ -9,7 +9,7 @@
 //! | [`model`], [`mistakes`] | a second implementation with gauges, and a switch for each mistake |
 //! | [`kit`] | problems, answers and gauges together |
 //! | [`mod@judge`], [`diagnosis`], [`residual`], [`report`] | the verdict, its reasons, its text |
-//! | [`files`], [`manifest`], [`checksums`], [`npy`] | the kit as files |
+//! | [`files`], [`manifest`], [`checksums`] | the kit as files |
 //! | [`folder`] | a candidate's answers as files |
 
 pub mod array;
@@ -26,7 +26,6 @@ pub mod kit;
 pub mod manifest;
 pub mod mistakes;
 pub mod model;
-pub mod npy;
 pub mod order;
 pub mod parameters;
 pub mod precision;

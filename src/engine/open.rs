@@ -62,13 +62,12 @@ pub fn open(
     gpu: Option<&Arc<Gpu>>,
     profiled: bool,
 ) -> Result<Coupled, StartError> {
-    let velocity = scene.initial_velocity;
     if let Some(part) = &scene.free {
         // Before a device is opened in vain.
         can_couple(&scene.setup, part)?;
     }
     let gpu = if name.needs_device() { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
-    let state = |_| (1.0, velocity);
+    let state = |centre| scene.initial.at(centre);
     let is_prescribed = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
     let whole = (&scene.setup, scene.free.as_ref());
     let mut engine = begin(name, whole, gpu.as_ref(), state, is_prescribed)?;

@@ -26,7 +26,7 @@ impl ReferenceEngine {
     /// The fluid of a scene at its start, with solids that are not free. Errors if the oracle refuses the
     /// set-up.
     pub fn new(scene: &Scene) -> Result<Self, SetupError> {
-        let state = |_| (1.0, scene.initial_velocity);
+        let state = |centre| scene.initial.at(centre);
         Self::start(scene.setup.clone(), &Start::State { state: &state, is_free: false })
     }
 

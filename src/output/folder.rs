@@ -138,7 +138,11 @@ impl RunFolder {
     /// left half-written. Once a run has begun no folder is made again: one that has gone is missed.
     pub fn prepare(&self, scene: &Scene) -> io::Result<()> {
         atomic::remove_leftovers(&self.path)?;
-        let made = names::all(&scene.records, &scene.attachments, scene.exact.is_some());
+        let made = names::all(
+            &scene.records,
+            &scene.attachments,
+            (scene.exact.is_some(), scene.free.is_some()),
+        );
         for folder in made.iter().filter(|made| made.is_folder) {
             let path = self.path.join(&folder.name);
             match fs::create_dir(&path) {

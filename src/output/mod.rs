@@ -11,6 +11,7 @@ pub mod grain_means;
 pub mod grain_plots;
 pub mod hashed;
 pub mod layers;
+pub mod load_means;
 pub mod loads;
 pub mod lock;
 pub mod npy;

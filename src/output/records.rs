@@ -7,6 +7,7 @@ use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::Load;
 
 use super::csv::{Mark, TableFile, Value};
+use super::load_means::LoadSums;
 use super::loads::rows_of;
 use super::{between, contacts, grain_means, layers, snapshots, walls};
 use crate::engine::{Block, CellState, Coupled};
@@ -24,6 +25,8 @@ pub struct Recorder {
     pub record: Record,
     /// The row that was taken last, of those records of which a column may become steady.
     pub watched: Option<Vec<f64>>,
+    /// Of averaged loads: what has been summed since the row before.
+    pub sums: LoadSums,
     folder: PathBuf,
     /// The file of a record that is a table.
     table: Option<TableFile>,
@@ -35,7 +38,12 @@ impl Recorder {
         let path = table_path(record, folder);
         let table = columns(record).map(|columns| named(&path, TableFile::create(&path, &columns)));
         let table = table.transpose()?;
-        Ok(Recorder { record: record.clone(), watched: None, folder: folder.to_owned(), table })
+        Ok(Self::of(record, folder, table))
+    }
+
+    fn of(record: &Record, folder: &Path, table: Option<TableFile>) -> Self {
+        let (record, folder) = (record.clone(), folder.to_owned());
+        Recorder { record, watched: None, sums: LoadSums::default(), folder, table }
     }
 
     /// Opens a record whose table began with what `mark` says; errors if it does not any more. Changes
@@ -44,7 +52,7 @@ impl Recorder {
         let path = table_path(record, folder);
         let table =
             columns(record).map(|_| named(&path, TableFile::reopen(&path, mark))).transpose()?;
-        Ok(Recorder { record: record.clone(), watched: None, folder: folder.to_owned(), table })
+        Ok(Self::of(record, folder, table))
     }
 
     /// Goes on after [`Recorder::reopen`].
@@ -104,7 +112,7 @@ impl Recorder {
                 }
             }
             What::Loads => {
-                let loads = engine.loads();
+                let loads = self.sums.take().unwrap_or_else(|| engine.loads());
                 self.watched = Some(summed(scene, &loads).to_vec());
                 for (grain, row) in (0..).zip(rows_of(scene, engine, &loads)) {
                     add(&[Value::Whole(grain)], &row[1..])?;

@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::format_free::{ContactSection, CouplingSection, GravitySection, LubricationSection};
 use super::format_grains::{GrainsSection, SolidSection};
+use super::format_initial::InitialSection;
 use super::format_run::{
     CheckpointSection, CompareSection, EngineSection, RecordSection, StopSection,
 };
@@ -231,13 +232,4 @@ pub enum FaceKind {
 pub struct BodyForceSection {
     /// Force per mass on the fluid, m/s2: a vector, or how it changes in time.
     pub acceleration: VectorInTime,
-}
-
-/// How the fluid starts.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct InitialSection {
-    /// Velocity of the fluid everywhere, m/s. If a grain is free or prescribed: outside the grains only; the fluid
-    /// inside a grain starts with the grain's motion.
-    pub velocity: Triple,
 }

@@ -21,7 +21,8 @@ pub struct GrainsSection {
     /// With `csv`: the file, relative to the scene. Its first line is
     /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own, the
     /// columns in any order, `radius (m)` instead of the diameter if you like; each further line is a
-    /// grain. Blank lines and lines that begin with `#` are left out.
+    /// grain. Free grains may have `velocity_x (m/s)` to `velocity_z (m/s)` and `spin_x (rad/s)` to `spin_z (rad/s)`, as at the
+    /// start. A run with free grains leaves such a list of them, `grains_at_end.csv`. Blank lines and lines that begin with `#` are left out.
     pub file: Option<String>,
     /// With `array`: `sc` (simple cubic), `bcc` (body-centred) or `fcc` (face-centred).
     pub lattice: Option<LatticeName>,

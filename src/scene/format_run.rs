@@ -41,6 +41,10 @@ pub struct RecordSection {
     /// With `slice`: the values at the lower and the upper end of the colours, in m/s or Pa, the same for all
     /// pictures of the record; values beyond have the colour of the end. Where absent each picture has its own.
     pub range: Option<[f64; 2]>,
+    /// With `loads` and `every` or `every_steps`: whether force and torque are means over the steps since the row before
+    /// (in the first row: those of the last step) instead of those of the last step (false where absent). The loads of
+    /// every step are then asked for, which a GPU answers slowly.
+    pub average: Option<bool>,
     /// With `fields`: `vti` (ParaView, single precision), `npy` (NumPy, double precision) or both;
     /// `vti` where absent. The axes of an `npy` array are z, y, x and, of vectors, component: `velocity[k, j, i, 0]`
     /// is the velocity along x at x = (i + 1/2) dx, y = (j + 1/2) dx, z = (k + 1/2) dx, m/s; `pressure` is in Pa.

@@ -5,8 +5,9 @@
 //! | `source.rs`, `path.rs` | the text, and where each key stands |
 //! | `changes.rs` | `--set` |
 //! | `edit.rs` | changes of the text that the program makes |
-//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_run.rs`, `format_time.rs` | the keys: names, types, and what they mean |
+//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_initial.rs`, `format_run.rs`, `format_time.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
+//! | `initial.rs` | how the fluid starts |
 //! | `shape.rs` | sections, keys and types as the schema has them |
 //! | `strongest.rs` | values that change in time, at their largest |
 //! | `hints.rs`, `synonyms.rs` | what to write instead |
@@ -20,9 +21,11 @@ pub(crate) mod edit;
 pub mod format;
 pub mod format_free;
 pub mod format_grains;
+pub mod format_initial;
 pub mod format_run;
 pub mod format_time;
 mod hints;
+pub mod initial;
 pub mod names;
 mod path;
 pub mod schema;
@@ -35,7 +38,6 @@ pub mod trouble;
 
 use std::path::Path;
 
-use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
 
 pub use changes::{differ, preset_changes};
@@ -52,6 +54,7 @@ use crate::in_time::Drives;
 use crate::units::Units;
 use crate::{input, quote};
 use format_grains::OperatorName;
+use initial::{CellsAtStart, Initial};
 use source::Source;
 
 /// Bytes that a scene file may have: grains by the million stand in lists beside it.
@@ -76,8 +79,8 @@ pub struct Scene {
     pub free: Option<FreePart>,
     /// What changes in time, if anything does; the set-up and `free` have the values of the first step.
     pub drives: Option<Drives>,
-    /// Velocity at the start, lattice units.
-    pub initial_velocity: Vec3,
+    /// How the fluid starts.
+    pub initial: Initial,
     /// `time.reference_velocity`, if it is given, m/s.
     pub si_reference_velocity: Option<f64>,
     /// When to save the state.
@@ -136,6 +139,12 @@ impl Scene {
         if let Some(phase) = self.setup.solid_phase.as_ref().filter(|_| self.operator_is_chosen) {
             // Named in what is kept, so that the run goes on with it whatever is chosen later.
             changes.push(format!("solid.operator=\"{}\"", OperatorName::of(phase.operator).word()));
+        }
+        if let Initial::Run(folder) | Initial::Cells(CellsAtStart { run: Some(folder), .. }) =
+            &self.initial
+        {
+            let folder = toml_edit::Value::from(folder.display().to_string());
+            changes.push(format!("initial.from={folder}"));
         }
         if self.engine != engine {
             changes.push(format!("engine.kind=\"{}\"", engine.word()));

@@ -17,6 +17,9 @@ pub const CHECKPOINTS: &str = "checkpoints";
 /// What `psmrt run` says about itself.
 pub const FACTS: &str = "run.json";
 
+/// List of the free grains where a run has left them.
+pub const GRAINS_AT_END: &str = "grains_at_end.csv";
+
 /// Table and picture of the comparison with an exact solution.
 pub const COMPARISON: [&str; 2] = ["comparison.csv", "comparison.svg"];
 
@@ -48,13 +51,20 @@ pub struct Made {
 }
 
 /// All files and folders that a run makes in its folder. What lies in the folder of a record is called after
-/// the step and cannot meet anything else; half-written files have names of their own.
-pub fn all(records: &[Record], copies: &[Attachment], compares: bool) -> Vec<Made> {
+/// the step and cannot meet anything else; whether it is compared with an exact solution and has free grains is given; half-written files have names of their own.
+pub fn all(
+    records: &[Record],
+    copies: &[Attachment],
+    (compares, has_free_grains): (bool, bool),
+) -> Vec<Made> {
     let file = |by: MadeBy, name: String| Made { name, is_folder: false, by };
     let folder = |by: MadeBy, name: &str| Made { name: name.to_owned(), is_folder: true, by };
     let run = [LOCK, ID, SCENE, FACTS];
     let mut made: Vec<Made> = run.map(|name| file(MadeBy::Run, name.to_owned())).into();
     made.push(folder(MadeBy::Run, CHECKPOINTS));
+    if has_free_grains {
+        made.push(file(MadeBy::Run, GRAINS_AT_END.to_owned()));
+    }
     let numbered = copies.iter().enumerate();
     made.extend(numbered.map(|(number, copy)| file(MadeBy::Copy(number), copy.file_name.clone())));
     if compares {

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use psmrt::run::Watcher;
+
 use super::Folder;
 use crate::scenes::water;
 
@@ -66,6 +68,15 @@ pub fn until(what: &str, done: impl Fn() -> bool) {
     while !done() {
         assert!(start.elapsed() < Duration::from_secs(60), "a minute was not enough: {what}");
         std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+/// A watcher that goes on until so many steps have been made.
+pub struct Until(pub u64);
+
+impl Watcher for Until {
+    fn watch(&mut self, steps: u64, _: Option<f64>) -> bool {
+        steps < self.0
     }
 }
 

@@ -36,7 +36,7 @@ enum Oracle {
 
 impl Oracle {
     fn new(scene: &Scene) -> Self {
-        let start = |_| (1.0, scene.initial_velocity);
+        let start = |centre| scene.initial.at(centre);
         match scene.free.clone() {
             None => {
                 Oracle::Fluid(Box::new(Solver::starting_from(scene.setup.clone(), start).unwrap()))

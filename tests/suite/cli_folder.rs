@@ -171,7 +171,11 @@ fn all_that_a_run_makes_was_known_before_it_started() {
     let output = start(&scene, &out).wait_with_output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     let scene = psmrt::scene::Scene::load(&out.join("scene.toml"), &[]).unwrap();
-    let known = psmrt::scene::names::all(&scene.records, &scene.attachments, scene.exact.is_some());
+    let known = psmrt::scene::names::all(
+        &scene.records,
+        &scene.attachments,
+        (scene.exact.is_some(), scene.free.is_some()),
+    );
     // A single row has no curve: that picture is not drawn.
     let drawn = known.into_iter().map(|made| made.name).filter(|name| name != "loads.svg");
     let mut known: Vec<_> = drawn.collect();

@@ -288,7 +288,7 @@ fn answers_that_cannot_be_used_are_wrong_with_their_reason() {
 
 #[test]
 fn arrays_of_every_kind_that_numpy_writes_are_read() {
-    use psmrt::conformance::npy::read;
+    use psmrt::conformance::Array;
     let npy = |descr: &str, fortran: &str, shape: &str, values: &[u8]| {
         let mut header =
             format!("{{'descr': '{descr}', 'fortran_order': {fortran}, 'shape': {shape}, }}")
@@ -298,7 +298,7 @@ fn arrays_of_every_kind_that_numpy_writes_are_read() {
         let mut bytes = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
         bytes.extend(&header);
         bytes.extend(values);
-        read(&bytes).unwrap()
+        Array::of_npy(&bytes).unwrap()
     };
     // Half precision: 1, -2, the smallest number of all, the largest, infinity.
     let halves = [0x3c00_u16, 0xc000, 0x0001, 0x7bff, 0x7c00];

@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use crate::cli::runs::Until;
 use crate::common::Budget;
 use crate::scenes::{scene, water};
 use psmrt::checkpoint;
@@ -83,15 +84,6 @@ fn a_channel_is_steady_within_the_tolerance_of_its_exact_flow_at_any_spacing_of_
                 "{what}: {steps} steps; after {due} only {was:e} were missing"
             );
         }
-    }
-}
-
-/// Goes on until so many steps have been made.
-struct Until(u64);
-
-impl Watcher for Until {
-    fn watch(&mut self, steps: u64, _: Option<f64>) -> bool {
-        steps < self.0
     }
 }
 

@@ -37,7 +37,7 @@ fn named(scene: &Scene) -> f64 {
     });
     let solids = scene.setup.solid_phase.iter().flat_map(|phase| &phase.solids);
     let solids = solids.map(|solid| solid.top_speed(&scene.setup.domain));
-    faces.chain(solids).chain([scene.initial_velocity.norm()]).fold(0.0, f64::max)
+    faces.chain(solids).chain([scene.initial.top_speed()]).fold(0.0, f64::max)
 }
 
 /// How fast the free grain settles that would settle fastest alone, cells per step.

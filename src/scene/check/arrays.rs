@@ -63,7 +63,7 @@ pub(super) fn balls(
                 balls.extend(sites.iter().map(|site| {
                     let corner = [x as f64, y as f64, z as f64];
                     let si_centre = std::array::from_fn(|i| (corner[i] + site[i]) * si_edge);
-                    Ball { si_centre, si_diameter, si_density: None, line: None }
+                    Ball::of(si_centre, si_diameter)
                 }));
             }
         }

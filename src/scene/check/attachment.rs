@@ -9,21 +9,27 @@ pub struct Attachment {
     pub file_name: String,
     /// What is in it.
     pub bytes: Vec<u8>,
-    /// Whether it has densities that nobody uses: its grains are not free.
-    pub unused_densities: bool,
+    /// Columns of it that nobody uses, since its grains are not free: "densities", "velocities".
+    pub unused: Vec<&'static str>,
 }
 
 impl Attachment {
     /// The list of the `[[grains]]` section of this number.
-    pub(super) fn of_grains(section: usize, bytes: Vec<u8>, unused_densities: bool) -> Self {
+    pub(super) fn of_grains(section: usize, bytes: Vec<u8>, unused: Vec<&'static str>) -> Self {
         let (key, file_name) = (format!("grains[{section}].file"), format!("grains_{section}.csv"));
-        Attachment { key, file_name, bytes, unused_densities }
+        Attachment { key, file_name, bytes, unused }
+    }
+
+    /// A field that `key` names.
+    pub(super) fn of_field(key: &str, file_name: &str, bytes: Vec<u8>) -> Self {
+        let (key, file_name) = (key.to_owned(), file_name.to_owned());
+        Attachment { key, file_name, bytes, unused: Vec::new() }
     }
 
     /// Values in time that the key names: `faces.z_low.pressure.file` becomes `faces_z_low_pressure.csv`.
     pub(super) fn of_values(key: &str, bytes: Vec<u8>) -> Self {
         let stem = key.trim_end_matches(".file").replace(']', "").replace(['.', '['], "_");
         let file_name = format!("{stem}.csv");
-        Attachment { key: key.to_owned(), file_name, bytes, unused_densities: false }
+        Attachment { key: key.to_owned(), file_name, bytes, unused: Vec::new() }
     }
 }

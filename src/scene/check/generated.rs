@@ -167,11 +167,6 @@ fn balls(packing: Result<Packing, PackingError>, place: &Site) -> Result<Vec<Bal
         let remedy = "change number, size, seed or domain; `psmrt pack` makes dense packings";
         Trouble::new((place.at)("kind"), error.to_string(), remedy)
     })?;
-    let ball = |grain: &Grain| Ball {
-        si_centre: grain.position.into(),
-        si_diameter: 2.0 * grain.radius,
-        si_density: None,
-        line: None,
-    };
+    let ball = |grain: &Grain| Ball::of(grain.position.into(), 2.0 * grain.radius);
     Ok(packing.grains.iter().map(ball).collect())
 }

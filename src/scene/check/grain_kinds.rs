@@ -71,5 +71,5 @@ fn sphere(section: &GrainsSection, at: &dyn Fn(&str) -> String) -> Result<Ball, 
     let remedy = "add `diameter`, in m";
     let si_diameter = needed(&at("diameter"), section.diameter, "a sphere needs it", remedy)?;
     positive(&at("diameter"), si_diameter, "m")?;
-    Ok(Ball { si_centre, si_diameter, si_density: None, line: None })
+    Ok(Ball::of(si_centre, si_diameter))
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::Trouble;
-pub use super::list_header::COLUMNS;
+pub use super::list_header::{COLUMNS, MOTION_COLUMNS};
 use super::list_header::{ListColumn, columns, wanted};
 use super::list_text::{Fault, as_decimal_comma, as_fortran, cells, decoded, numbered_lines};
 use super::listed::Ball;
@@ -77,8 +77,7 @@ fn ball(row: &str, columns: &[ListColumn], line: usize) -> Result<Ball, Fault> {
         };
         return Err((problem, remedy.to_owned()));
     }
-    let mut ball =
-        Ball { si_centre: [0.0; 3], si_diameter: 0.0, si_density: None, line: Some(line) };
+    let mut ball = Ball { line: Some(line), ..Ball::of([0.0; 3], 0.0) };
     for (column, cell) in columns.iter().zip(cells) {
         let value = number(*column, cell)?;
         match *column {
@@ -86,15 +85,19 @@ fn ball(row: &str, columns: &[ListColumn], line: usize) -> Result<Ball, Fault> {
             ListColumn::Diameter => ball.si_diameter = value,
             ListColumn::Radius => ball.si_diameter = 2.0 * value,
             ListColumn::Density => ball.si_density = Some(value),
+            ListColumn::Velocity(axis) => {
+                ball.si_velocity.get_or_insert_default()[axis] = value;
+            }
+            ListColumn::Spin(axis) => ball.si_spin.get_or_insert_default()[axis] = value,
         }
     }
     Ok(ball)
 }
 
 fn number(column: ListColumn, cell: &str) -> Result<f64, Fault> {
-    let is_place = matches!(column, ListColumn::Place(_));
+    let is_size = matches!(column, ListColumn::Diameter | ListColumn::Radius | ListColumn::Density);
     match cell.parse::<f64>() {
-        Ok(value) if value.is_finite() && (is_place || value > 0.0) => return Ok(value),
+        Ok(value) if value.is_finite() && (!is_size || value > 0.0) => return Ok(value),
         _ => {}
     }
     let name = match column {
@@ -102,6 +105,8 @@ fn number(column: ListColumn, cell: &str) -> Result<f64, Fault> {
         ListColumn::Diameter => COLUMNS[3],
         ListColumn::Radius => "radius (m)",
         ListColumn::Density => COLUMNS[4],
+        ListColumn::Velocity(axis) => MOTION_COLUMNS[axis],
+        ListColumn::Spin(axis) => MOTION_COLUMNS[3 + axis],
     };
     let problem = format!("{name} = {} is not allowed", quoted(cell));
     let remedy = if let Some(number) = as_fortran(cell) {

@@ -17,7 +17,6 @@ use crate::units::Units;
 /// Densities of free grains over that of the fluid: beyond lie mistaken units.
 const DENSITY_RATIOS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
-/// The contents of a file that a scene names: a run keeps a copy.
 /// All grains of a scene, and those of them whose motion changes in time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct GrainList {
@@ -42,11 +41,10 @@ impl GrainList {
             let fastest = (motion.0.largest(Vec3::norm), motion.1.largest(Vec3::norm));
             let place = Site { at: &at, domain, units };
             let (balls, bytes) = grain_kinds::balls(section, files.folder, &place)?;
-            let unused_densities =
-                section.motion != MotionKind::Free && balls.iter().any(|b| b.si_density.is_some());
+            let unused = unused(section.motion, &balls);
             files
                 .attachments
-                .extend(bytes.map(|bytes| Attachment::of_grains(number, bytes, unused_densities)));
+                .extend(bytes.map(|bytes| Attachment::of_grains(number, bytes, unused)));
             let solids = list.grains.len()..list.grains.len() + balls.len();
             if motion.0.varies() || motion.1.varies() {
                 let (velocity, angular_velocity) = motion;
@@ -63,6 +61,10 @@ impl GrainList {
                 let centre = Units::to_lattice(ball.si_centre, units.si_dx);
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
                 let (key, motion) = (place_key(section, &at), section.motion);
+                let own = own_motion(section, &at, &ball, units).map_err(on_line)?;
+                let (velocity, angular_velocity) =
+                    (own.0.unwrap_or(velocity), own.1.unwrap_or(angular_velocity));
+                let fastest = (own.0.unwrap_or(fastest.0), own.1.unwrap_or(fastest.1));
                 check_size(&size_key(section, &at), radius, domain, units).map_err(on_line)?;
                 check_speed(&at("spin"), &fastest.0, &fastest.1, radius, units).map_err(on_line)?;
                 neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
@@ -145,6 +147,40 @@ fn motion(
         Ok(Units::to_lattice(si_spin, units.si_angular_velocity()))
     })?;
     Ok((velocity, spin))
+}
+
+/// Velocity and angular velocity, lattice units, that the list of a free grain gives it.
+fn own_motion(
+    section: &GrainsSection,
+    at: &impl Fn(&str) -> String,
+    ball: &Ball,
+    units: &Units,
+) -> Result<(Option<Vec3>, Option<Vec3>), Trouble> {
+    if section.motion != MotionKind::Free {
+        return Ok((None, None));
+    }
+    for (key, own, given) in
+        [("velocity", ball.si_velocity, &section.velocity), ("spin", ball.si_spin, &section.spin)]
+    {
+        if own.is_some() {
+            let belongs = format!("grains of which the file has no columns for the {key}");
+            absent(&at(key), given.as_ref(), &belongs)?;
+        }
+    }
+    let velocity = ball.si_velocity.map(|own| super::velocity(&at("file"), own, units));
+    let spin = ball.si_spin.map(|own| Units::to_lattice(own, units.si_angular_velocity()));
+    Ok((velocity.transpose()?, spin))
+}
+
+/// What the list of grains that move so says of them and nobody uses.
+fn unused(motion: MotionKind, balls: &[Ball]) -> Vec<&'static str> {
+    let is_given = [
+        ("densities", balls.iter().any(|ball| ball.si_density.is_some())),
+        ("velocities", balls.iter().any(|ball| ball.si_velocity.is_some())),
+        ("angular velocities", balls.iter().any(|ball| ball.si_spin.is_some())),
+    ];
+    let unused = is_given.into_iter().filter(|(_, given)| *given && motion != MotionKind::Free);
+    unused.map(|(columns, _)| columns).collect()
 }
 
 /// Errors if a free grain is given a motion that changes: it has the one that acts on it.

@@ -6,6 +6,16 @@ use crate::quote::quoted;
 /// The first line of a list of grains; the last column may be absent.
 pub const COLUMNS: [&str; 5] = ["x (m)", "y (m)", "z (m)", "diameter (m)", "density (kg/m3)"];
 
+/// Columns that it may have besides, all three of a vector together: how a free grain moves at the start.
+pub const MOTION_COLUMNS: [&str; 6] = [
+    "velocity_x (m/s)",
+    "velocity_y (m/s)",
+    "velocity_z (m/s)",
+    "spin_x (rad/s)",
+    "spin_y (rad/s)",
+    "spin_z (rad/s)",
+];
+
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ListColumn {
@@ -14,6 +24,10 @@ pub(super) enum ListColumn {
     Diameter,
     Radius,
     Density,
+    /// Velocity along an axis, m/s.
+    Velocity(usize),
+    /// Angular velocity about an axis, rad/s.
+    Spin(usize),
 }
 
 /// The first line as it should be.
@@ -57,8 +71,24 @@ pub(super) fn columns(line: &str) -> Result<Vec<ListColumn>, Fault> {
             "there are columns for the diameter and for the radius".to_owned(),
             "keep one of them".to_owned(),
         )),
-        _ => Ok(columns),
+        _ => whole_vectors(columns),
     }
+}
+
+/// The columns, if all three of each vector are there or none.
+fn whole_vectors(columns: Vec<ListColumn>) -> Result<Vec<ListColumn>, Fault> {
+    let vectors = [[0, 1, 2].map(ListColumn::Velocity), [0, 1, 2].map(ListColumn::Spin)];
+    for (vector, names) in vectors.iter().zip(MOTION_COLUMNS.chunks(3)) {
+        let is_there = vector.map(|column| columns.contains(&column));
+        if let (true, Some(missing)) =
+            (is_there.contains(&true), is_there.iter().position(|there| !there))
+        {
+            let problem = format!("there is no column \"{}\"", names[missing]);
+            let remedy = format!("add it (0 where it is 0): {} belong together", names.join(","));
+            return Err((problem, remedy));
+        }
+    }
+    Ok(columns)
 }
 
 /// Errors if the columns are separated by something else than commas.
@@ -91,6 +121,13 @@ fn column(number: usize, cell: &str) -> Result<ListColumn, Fault> {
         "diameter" | "d" => (ListColumn::Diameter, COLUMNS[3]),
         "radius" | "r" => (ListColumn::Radius, "radius (m)"),
         "density" | "rho" => (ListColumn::Density, COLUMNS[4]),
+        name if MOTION_COLUMNS.iter().any(|known| is_called(known, name)) => {
+            let place = MOTION_COLUMNS.iter().position(|known| is_called(known, name)).unwrap_or(0);
+            let axis = place % 3;
+            let column =
+                if place < 3 { ListColumn::Velocity(axis) } else { ListColumn::Spin(axis) };
+            (column, MOTION_COLUMNS[place])
+        }
         "" => {
             let problem = format!("column {at} has no name");
             return Err((problem, "remove the empty column: commas at the end of lines".into()));
@@ -106,7 +143,8 @@ fn column(number: usize, cell: &str) -> Result<ListColumn, Fault> {
         (ListColumn::Density, "g/cm3" | "g/cm^3" | "g/cm³" | "g/cc") => {
             Some("multiply it by 1000")
         }
-        (ListColumn::Density, _) => None,
+        (ListColumn::Velocity(_), "m/s") | (ListColumn::Spin(_), "rad/s") => return Ok(column),
+        (ListColumn::Density | ListColumn::Velocity(_) | ListColumn::Spin(_), _) => None,
         (_, "m") => return Ok(column),
         (_, "mm") => Some("divide it by 1000"),
         (_, "cm") => Some("divide it by 100"),
@@ -121,4 +159,9 @@ fn column(number: usize, cell: &str) -> Result<ListColumn, Fault> {
         }
     };
     Err((problem, remedy))
+}
+
+/// Whether a title of a column is this name with a unit.
+fn is_called(title: &str, name: &str) -> bool {
+    title.split(' ').next() == Some(name)
 }

@@ -19,8 +19,20 @@ pub(super) struct Ball {
     pub si_diameter: f64,
     /// Where its file gives one.
     pub si_density: Option<f64>,
+    /// Where its file gives one.
+    pub si_velocity: Option<[f64; 3]>,
+    /// Where its file gives one.
+    pub si_spin: Option<[f64; 3]>,
     /// Its line in the file that it comes from, from 1.
     pub line: Option<usize>,
+}
+
+impl Ball {
+    /// A sphere of which no more is given.
+    pub fn of(si_centre: [f64; 3], si_diameter: f64) -> Self {
+        let (si_density, si_velocity, si_spin, line) = (None, None, None, None);
+        Ball { si_centre, si_diameter, si_density, si_velocity, si_spin, line }
+    }
 }
 
 /// Where grains are put down: the domain, and how a key of their section is called.

@@ -18,6 +18,7 @@ pub mod grains;
 pub(crate) mod hardness;
 mod implicit;
 mod in_time;
+pub mod initial;
 mod list_header;
 mod list_text;
 mod listed;
@@ -79,10 +80,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     });
     let body_force = body_force.transpose()?;
     setup.body_force = body_force.as_ref().map(|signal| signal.at(0.0));
-    let initial_velocity = match &file.initial {
-        Some(initial) => velocity("initial.velocity", initial.velocity, &units)?,
-        None => Vec3::zeros(),
-    };
+    let initial = initial::initial(file.initial.as_ref(), &setup.domain, &units, &mut files)?;
     let mut list = GrainList::new(&file.grains, &mut files, &setup.domain, &units)?;
     let gravity = file.gravity.as_ref().map(|section| {
         acceleration_in_time("gravity.acceleration", &section.acceleration, &units, &mut files)
@@ -122,7 +120,8 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         ),
         None => None,
     };
-    records::files_differ(&records, &files.attachments, exact.is_some())?;
+    let others = (exact.is_some(), free.is_some());
+    records::files_differ(&records, &files.attachments, others)?;
     Ok(Scene {
         title: file.title.clone().unwrap_or_default(),
         text: String::new(),
@@ -135,7 +134,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         free,
         drives,
         operator_is_chosen: file.solid.as_ref().is_none_or(|section| section.operator.is_none()),
-        initial_velocity,
+        initial,
         records,
         stop,
         exact,

@@ -24,6 +24,8 @@ pub struct Record {
     pub interval: OutputInterval,
     /// The time between rows that the scene asks for, if it gives one, s.
     pub si_every: Option<f64>,
+    /// Of loads: whether they are means over the time since the row before.
+    pub averages: bool,
 }
 
 /// What a record holds.
@@ -144,12 +146,17 @@ pub(super) fn records(
                 return Err(Trouble::new(at("every_steps"), problem, "give one of them"));
             }
         };
+        if section.kind != RecordKind::Loads || interval == OutputInterval::AtEnd {
+            let belongs = "records of kind `loads` with `every` or `every_steps`";
+            absent(&at("average"), section.average.as_ref(), belongs)?;
+        }
         let what = what(section, &at, setup, free, units)?;
         records.push(Record {
             name: section.name.clone(),
             what,
             interval,
             si_every: section.every,
+            averages: section.average == Some(true),
         });
     }
     Ok(records)
@@ -268,9 +275,9 @@ fn walls(key: &str, domain: &Domain) -> Result<What, Trouble> {
 pub(super) fn files_differ(
     records: &[Record],
     lists: &[Attachment],
-    compares: bool,
+    others: (bool, bool),
 ) -> Result<(), Trouble> {
-    let made = names::all(records, lists, compares);
+    let made = names::all(records, lists, others);
     let Some([earlier, later]) = names::meeting(&made) else { return Ok(()) };
     let owner = |made: &Made| match made.by {
         MadeBy::Run => "every run makes one of that name".to_owned(),

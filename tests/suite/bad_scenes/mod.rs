@@ -89,6 +89,7 @@ pub const BAD: &[Bad] = &[
     Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\nkind = \"permeability\"", "records[0].kind", "grain 1 moves as prescribed"),
     Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\naxis = \"x\"\nkind = \"box\"", "records[0].axis", "`layers` and `permeability`"),
     Bad("spin = [0.0, 1.0, 0.0]\n", "", "grains[1].motion", "rad/s"),
+    Bad("name = \"box\"\nkind = \"box\"", "name = \"box\"\naverage = true\nkind = \"box\"", "records[0].average", "`loads` with `every`"),
     Bad("samples = 4\n", "", "solid.samples", "sampled"),
     Bad("time = 0.01\n", "", "stop", "`steps`"),
     Bad("velocity = [1e-3, 0.0, 0.0] }\nx_high", "}\nx_high", "faces.x_low.velocity", "m/s"),

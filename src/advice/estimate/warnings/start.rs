@@ -11,6 +11,7 @@ use psmrt_reference::lattice::{CS2, Vec3, viscosity};
 
 use crate::advice::estimate::warning::{Warning, warning};
 use crate::scene::Scene;
+use crate::scene::initial::Initial;
 use crate::seepage::spheres::{solid_fraction, spheres};
 
 /// A start that misses the inlet's velocity by less than this part of it is not worth a word.
@@ -32,7 +33,14 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
 
 /// What the start of a stream through one inlet brings, if its sound is still there when the run ends.
 fn start(scene: &Scene, axis: usize, side: usize, velocity: &Vec3) -> Option<Warning> {
-    let missed = (velocity[axis] - scene.initial_velocity[axis]).abs();
+    if let Initial::Run(_) = scene.initial {
+        return None;
+    }
+    // In the middle of the face.
+    let mut middle = Vec3::from(scene.setup.domain.cells().map(|n| (n / 2) as f64 + 0.5));
+    middle[axis] = if side == 0 { 0.5 } else { scene.setup.domain.cells()[axis] as f64 - 0.5 };
+    let (_, start) = scene.initial.at(middle);
+    let missed = (velocity[axis] - start[axis]).abs();
     if missed <= SMALL * velocity[axis].abs() {
         return None;
     }

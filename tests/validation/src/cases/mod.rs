@@ -30,6 +30,7 @@ mod suspension;
 mod ten_cate;
 mod tradeoff;
 mod twins;
+pub mod viscosity;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -103,6 +104,7 @@ pub const CASES: &[Case] = &[
     stokes_settling::CASE,
     ten_cate::CASE,
     suspension::CASE,
+    viscosity::CASE,
     cloud_settling::CASE,
     conformance::CASE,
     tradeoff::CASE,

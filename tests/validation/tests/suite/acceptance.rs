@@ -92,6 +92,11 @@ fn permeability_holds_its_claims() {
 }
 
 #[test]
+fn a_sphere_thickens_sheared_water_as_einstein_derived() {
+    holds("viscosity", &mut Budget::kernel(160_000_000));
+}
+
+#[test]
 fn a_boiling_bed_holds_its_claims() {
     holds("boiling", &mut Budget::kernel(240_000_000));
 }

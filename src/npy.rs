@@ -3,8 +3,6 @@
 
 use thiserror::Error;
 
-use super::array::Array;
-
 /// A file that is no array that can be used.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 pub enum NpyError {
@@ -30,8 +28,8 @@ pub enum NpyError {
     Type(String),
 }
 
-/// Reads an array.
-pub fn read(bytes: &[u8]) -> Result<Array, NpyError> {
+/// Shape and values of an array, the values in C order (the last index runs fastest).
+pub fn read(bytes: &[u8]) -> Result<(Vec<usize>, Vec<f64>), NpyError> {
     let rest = bytes.strip_prefix(b"\x93NUMPY").ok_or(NpyError::Foreign)?;
     let (length, rest) = match rest {
         [1, _, a, b, rest @ ..] => (usize::from(u16::from_le_bytes([*a, *b])), rest),
@@ -57,7 +55,7 @@ pub fn read(bytes: &[u8]) -> Result<Array, NpyError> {
     }
     let values: Vec<f64> = values[..needed].chunks_exact(size).map(convert).collect();
     let values = if fortran { into_c_order(&shape, &values) } else { values };
-    Ok(Array { shape, values })
+    Ok((shape, values))
 }
 
 /// The quoted text after `key`.
