@@ -9,6 +9,7 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use psmrt_reference::solids::Shape;
 use serde_json::{Value as Json, json};
 
+use super::conclusion::{Conclusion, is_steady, steady_words};
 use super::viscosity::viscosity_of_mixture;
 use crate::advice::estimate::outlook;
 use crate::engine::Coupled;
@@ -21,14 +22,6 @@ use crate::seepage::laws::SI_DARCY;
 use crate::seepage::permeability::{BESIDE, Seepage};
 use crate::seepage::spheres::spheres_of;
 
-/// Something that a run has shown.
-pub(super) struct Conclusion {
-    /// For people, a line.
-    pub text: String,
-    /// For programs.
-    pub json: Json,
-}
-
 /// All that can be concluded.
 pub(super) fn conclusions(scene: &Scene, engine: &Coupled, end: End) -> Vec<Conclusion> {
     let found = [
@@ -38,23 +31,6 @@ pub(super) fn conclusions(scene: &Scene, engine: &Coupled, end: End) -> Vec<Conc
         viscosity_of_mixture(scene, engine, end),
     ];
     found.into_iter().flatten().collect()
-}
-
-/// Whether the criterion of the scene was met, if it has one.
-pub(super) fn is_steady(end: End) -> Option<bool> {
-    match end {
-        End::Steady { .. } => Some(true),
-        End::NotSteady { .. } => Some(false),
-        End::Limit | End::Interrupted => None,
-    }
-}
-
-pub(super) fn steady_words(end: End) -> &'static str {
-    match is_steady(end) {
-        Some(true) => "steady",
-        Some(false) => "NOT steady",
-        None => "not judged whether steady: the scene has no [stop.steady]",
-    }
 }
 
 /// Free grains that are faster than this share of the water in the pores are no bed at rest.

@@ -3,6 +3,7 @@
 mod beginning;
 pub mod check;
 mod comparison;
+mod conclusion;
 mod conclusions;
 pub mod conformance;
 pub mod execute;

@@ -4,7 +4,7 @@ use psmrt_reference::domain::{Domain, Face};
 use psmrt_reference::lattice::{Vec3, viscosity};
 use serde_json::json;
 
-use super::conclusions::{Conclusion, is_steady, steady_words};
+use super::conclusion::{Conclusion, is_steady, steady_words};
 use crate::engine::Coupled;
 use crate::output::walls;
 use crate::run::End;

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::cli::{Folder, psmrt, stderr, stdout};
 use crate::common::Budget;
-use crate::scenes::{free_sphere, water};
+use crate::scenes::{FLOOR_AND_LID, GRAVITY, free_sphere, water};
 
 fn scene() -> String {
     let rest = r#"
@@ -143,6 +143,69 @@ fn vtk_and_numpy_read_all_files() {
     let folder = Folder::new("python");
     let out = run(&folder);
     let output = Command::new("python3").args(["-c", PYTHON]).arg(&out).output().unwrap();
+    assert!(output.status.success(), "{}", stderr(&output));
+    assert!(stdout(&output).contains("read by VTK"));
+}
+
+const PYTHON_OF_BEDS: &str = r#"
+import sys, numpy as np, pandas as pd, vtk
+from vtk.util.numpy_support import vtk_to_numpy
+folder = sys.argv[1]
+tables = {name: pd.read_csv(f"{folder}/{name}.csv") for name in ["layers", "walls", "contact_means", "loads"]}
+for name, table in tables.items():
+    assert list(table.columns[:2]) == ["time (s)", "step"] and len(table) > 0, (name, table.columns)
+    numbers = table.drop(columns=["face"]) if "face" in table else table
+    assert all(kind.kind in "fi" for kind in numbers.dtypes), (name, numbers.dtypes)
+assert set(tables["walls"]["face"]) == {"z_low", "z_high"}
+last = tables["walls"].iloc[-2:].set_index("face")
+reader = vtk.vtkXMLPolyDataReader()
+errors = []
+reader.AddObserver("ErrorEvent", lambda *_: errors.append(1))
+reader.SetFileName(f"{folder}/contacts/contacts_000000000400.vtp"); reader.Update()
+assert not errors
+lines = reader.GetOutput()
+count, data = lines.GetNumberOfLines(), lines.GetCellData()
+between = int(tables["contact_means"].iloc[-1]["contacts"])
+assert (vtk_to_numpy(data.GetArray("other grain")) >= 0).sum() == between > 0, (count, between)
+names = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+normal = vtk_to_numpy(data.GetArray("normal force (N)"))
+assert normal.shape == (count,) and (normal > 0).all(), normal
+# What rests on the floor, by its own lines: those that end at z = 0.
+points = vtk_to_numpy(lines.GetPoints().GetData())
+ends = vtk_to_numpy(lines.GetLines().GetConnectivityArray()).reshape(count, 2)
+floor = np.isclose(points[ends][:, :, 2].min(axis=1), 0.0, atol=1e-9)
+force = -last.loc["z_low", "grain_force_z (N)"]
+assert np.isclose(normal[floor].sum(), force, rtol=1e-5), (normal[floor].sum(), force)
+print("read by VTK", vtk.vtkVersion().GetVTKVersion(), "and pandas", pd.__version__, names)
+"#;
+
+#[test]
+#[ignore = "needs Python with `pip install vtk pandas`"]
+fn vtk_and_pandas_read_contacts_layers_and_walls() {
+    Budget::oracle(430_000).spend(400 * 8 * 8 * 16);
+    let folder = Folder::new("python_beds");
+    let kinds = [
+        ("layers", "axis = \"z\"\nlayers = 4"),
+        ("walls", ""),
+        ("contact_means", ""),
+        ("contacts", ""),
+        ("loads", "average = true"),
+    ];
+    let records: String = kinds
+        .iter()
+        .map(|(kind, keys)| {
+            format!(
+                "[[records]]\nname = \"{kind}\"\nkind = \"{kind}\"\nevery_steps = 200\n{keys}\n"
+            )
+        })
+        .collect();
+    let bed = "[[grains]]\nkind = \"bed\"\ncount = 6\ndiameter = 1e-4\ndensity = 2650.0\nmotion = \"free\"\n";
+    let rest = format!("{FLOOR_AND_LID}{GRAVITY}{bed}{records}[stop]\nsteps = 400\n");
+    let scene = folder.write("scene.toml", water([8, 8, 16], 2.5e-5, &rest));
+    let out = folder.path("out");
+    let output = psmrt(&["run", scene.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let output = Command::new("python3").args(["-c", PYTHON_OF_BEDS]).arg(&out).output().unwrap();
     assert!(output.status.success(), "{}", stderr(&output));
     assert!(stdout(&output).contains("read by VTK"));
 }
