@@ -30,7 +30,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let engine = EngineName::CpuSingle;
     let study = Study::new(STUDY);
     let named = |name: &str| {
-        FLUIDIZED_BEDS.iter().find(|run| run.name == name).ok_or_else(|| format!("no run is named {name:?}"))
+        FLUIDIZED_BEDS
+            .iter()
+            .find(|run| run.name == name)
+            .ok_or_else(|| format!("no run is named {name:?}"))
     };
     match &std::env::args().skip(1).collect::<Vec<_>>()[..] {
         [word, name] if word == "--changes" => {
@@ -61,7 +64,9 @@ fn of_folder(folder: &Path, run: &FluidizedBed) -> Result<Vec<Vec<String>>, Box<
     let scene = Scene::load(&folder.join("scene.toml"), &[])?;
     let wanted = Scene::load(Path::new("golden/fluidization/bed.toml"), &run.changes())?;
     if scene.setup != wanted.setup || scene.drives != wanted.drives {
-        return Err(format!("the scene of {} is not that of {:?}", folder.display(), run.name).into());
+        return Err(
+            format!("the scene of {} is not that of {:?}", folder.display(), run.name).into()
+        );
     }
     let record = |name: &str| Table::read(&folder.join(format!("{name}.csv")));
     let records =

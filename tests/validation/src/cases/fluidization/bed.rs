@@ -188,7 +188,11 @@ pub fn rows_of(
     let mut rows = Vec::new();
     for [first, end] in held(times.len(), &velocity) {
         let last = end - 1;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of it")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a share of it"
+        )]
         let from = last - ((last - first) as f64 * SHARE) as usize;
         let over = (end - from) as f64;
         let mean = |value: &dyn Fn(usize) -> f64| (from..end).map(value).sum::<f64>() / over;
@@ -211,7 +215,10 @@ pub fn rows_of(
         rows.push(vec![
             engine.to_owned(),
             name.to_owned(),
-            format!("{:.4}", 1e3 * si_diameter).trim_end_matches('0').trim_end_matches('.').to_owned(),
+            format!("{:.4}", 1e3 * si_diameter)
+                .trim_end_matches('0')
+                .trim_end_matches('.')
+                .to_owned(),
             format!("{:.2}", si_diameter / units.si_dx),
             format!("{}", scene.setup.collision.tau()),
             format!("{si_velocity:.6e}"),
@@ -234,7 +241,8 @@ fn held(rows: usize, velocity: &dyn Fn(usize) -> f64) -> Vec<[usize; 2]> {
     let mut found = Vec::new();
     let mut first = 0;
     for row in 1..=rows {
-        let is_same = row < rows && (velocity(row) - velocity(first)).abs() <= 1e-9 * velocity(first).abs().max(1e-9);
+        let is_same = row < rows
+            && (velocity(row) - velocity(first)).abs() <= 1e-9 * velocity(first).abs().max(1e-9);
         if !is_same {
             if row - first >= LEAST {
                 found.push([first, row]);

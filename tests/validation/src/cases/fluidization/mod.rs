@@ -10,7 +10,7 @@ pub(super) mod bed;
 mod figures;
 mod laws;
 
-use super::{BED_LAWS, Bench, BedLaw, Case, CaseError, Claim, Golden};
+use super::{BED_LAWS, BedLaw, Bench, Case, CaseError, Claim, Golden};
 use bed::{FluidizedBed, Records, rows_of};
 use laws::Grains;
 use psmrt::table::Table;
@@ -232,7 +232,10 @@ fn swelling(run: &Run) -> Option<Claim> {
     let [first, .., last] = lifted[..] else { return None };
     let [zaki, garside] = run.grains.exponents;
     Some(Claim {
-        what: format!("study, {}: exponent n of u = k u_t eps^n from porosity {:.3} to {:.3}", run.name, first.inside, last.inside),
+        what: format!(
+            "study, {}: exponent n of u = k u_t eps^n from porosity {:.3} to {:.3}",
+            run.name, first.inside, last.inside
+        ),
         measured: (last.re / first.re).ln() / (last.inside / first.inside).ln(),
         allowed: zaki - 0.4..=garside + 0.6,
         why: "Richardson & Zaki's exponent to Garside & Al-Dibouni's; a porosity that is known to 0.01 at either end leaves 0.35 of n, and a factor k \

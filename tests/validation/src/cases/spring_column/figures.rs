@@ -37,7 +37,9 @@ fn forces(golden: &Golden, rows: &Table) -> Result<Figure, CaseError> {
         Axis::linear("force over the weight less buoyancy of a sphere").range(0.0, 10.5),
     );
     let closed = exact(golden)?;
-    let at = |values: &[f64]| values.iter().enumerate().map(|(j, &value)| (j as f64, value)).collect::<Vec<_>>();
+    let at = |values: &[f64]| {
+        values.iter().enumerate().map(|(j, &value)| (j as f64, value)).collect::<Vec<_>>()
+    };
     let engines = rows.values("engine")?;
     for (colour, [forces, _]) in closed.iter().enumerate() {
         let mut line = at(forces);

@@ -159,7 +159,9 @@ fn exact(golden: &Golden) -> Result<Vec<[Vec<f64>; 2]>, CaseError> {
 
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     // A NaN stays one: `max` would drop it.
-    values.into_iter().fold(0.0, |most: f64, value| if value > most || value.is_nan() { value } else { most })
+    values
+        .into_iter()
+        .fold(0.0, |most: f64, value| if value > most || value.is_nan() { value } else { most })
 }
 
 fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
@@ -178,7 +180,9 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             allowed: 0.0..=2e-3,
             why: "exact whatever the ends; rho U^2 is some 5e-4 of the head at Re = 0.2, and what still swings is as much",
         });
-        let off = |level: &Level| largest(level.force.iter().zip(&level.from_pressure).map(|(f, p)| (f - p).abs()));
+        let off = |level: &Level| {
+            largest(level.force.iter().zip(&level.from_pressure).map(|(f, p)| (f - p).abs()))
+        };
         claims.push(Claim {
             what: format!("{engine}: contact forces, largest distance from the balance with the measured pressures, over N W'"),
             measured: largest(levels.iter().map(off)) / whole,
@@ -204,7 +208,9 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
                   above; the rest is what still swings",
         });
         claims.push(Claim {
-            what: format!("{engine}: settlement of the top under its own weight, over N (N + 1)/2 W'/k"),
+            what: format!(
+                "{engine}: settlement of the top under its own weight, over N (N + 1)/2 W'/k"
+            ),
             measured: levels[0].settlement[SPHERES - 1] / exact[0][1][SPHERES - 1],
             allowed: 0.995..=1.005,
             why: "springs under known forces: exact but for what still swings",
