@@ -74,10 +74,10 @@ fn onset(study: &[Run], quick: &[Run]) -> Figure {
         Axis::log("Archimedes number"),
         Axis::log("Re = U_mf d/nu"),
     );
-    let panels: [(&dyn Fn(&Run) -> f64, Scale); 2] =
-        [(&|_| 1.0, wen_yu), (&|run| run.grains.wen_yu, |_| 1.0)];
-    for (number, (over, scale)) in panels.into_iter().enumerate() {
-        if number == 1 {
+    for is_ratio in [false, true] {
+        let over = |run: &Run| if is_ratio { run.grains.wen_yu } else { 1.0 };
+        let scale = |archimedes: f64| if is_ratio { 1.0 } else { wen_yu(archimedes) };
+        if is_ratio {
             figure = figure.with_panel(Axis::linear("over Wen & Yu").range(0.5, 2.0));
         }
         let line = |factor: f64| numbers().map(|ar| (ar, factor * scale(ar))).collect::<Vec<_>>();
@@ -87,19 +87,16 @@ fn onset(study: &[Run], quick: &[Run]) -> Figure {
             .with(Series::dashed("Wen & Yu, a standard deviation", line(0.66)).with_colour(0));
         for (colour, one, marker) in [(1, TANG, Marker::Diamond), (2, ERGUN, Marker::Cross)] {
             let label = format!("{}, at the porosity of each bed", one.name);
-            let series = Series::new(label, Style::Points(Some(marker)), law(one, over));
+            let series = Series::new(label, Style::Points(Some(marker)), law(one, &over));
             figure = figure.with(series.with_colour(colour));
         }
         let filled = Style::Points(Some(Marker::Circle));
         figure = figure
-            .with(Series::new("psmrt, 8 and 12 cells", filled, found(study, over)).with_colour(3))
-            .with(Series::new("psmrt, quick, 6 cells", RING, found(quick, over)).with_colour(3));
+            .with(Series::new("psmrt, 8 and 12 cells", filled, found(study, &over)).with_colour(3))
+            .with(Series::new("psmrt, quick, 6 cells", RING, found(quick, &over)).with_colour(3));
     }
     figure.note("sand of 0.2, 0.5 and 1 mm in water")
 }
-
-/// A curve over Archimedes' number.
-type Scale = fn(f64) -> f64;
 
 /// `U_mf d/nu` by Wen & Yu.
 fn wen_yu(archimedes: f64) -> f64 {
