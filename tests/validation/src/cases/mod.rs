@@ -13,6 +13,7 @@ mod cost;
 mod cpu_speed;
 mod drift;
 mod duct;
+mod fluidization;
 mod found;
 mod kernel_parity;
 mod kernel_speed;
@@ -22,6 +23,7 @@ mod poiseuille;
 mod seepage;
 mod sphere_arrays;
 mod sphere_drag;
+mod spring_column;
 mod stability;
 mod steadiness;
 mod stokes_settling;
@@ -51,6 +53,9 @@ use psmrt::table::{Table, TableError};
 
 pub use bench::{Bench, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
+pub use fluidization::bed::{
+    FluidizedBed, RUNS as FLUIDIZED_BEDS, Records as BedRecords, rows_of as rows_of_bed,
+};
 pub use found::drawn;
 pub use permeability::beds::{BedOfSpheres, RANDOM as PERMEABILITY_BED};
 pub use psmrt::seepage::laws::{BED_LAWS, BedLaw};
@@ -101,6 +106,8 @@ pub const CASES: &[Case] = &[
     seepage::CASE,
     permeability::CASE,
     boiling::CASE,
+    spring_column::CASE,
+    fluidization::CASE,
     stokes_settling::CASE,
     ten_cate::CASE,
     suspension::CASE,

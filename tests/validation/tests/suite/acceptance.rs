@@ -102,6 +102,16 @@ fn a_boiling_bed_holds_its_claims() {
 }
 
 #[test]
+fn a_column_of_spheres_on_springs_holds_its_claims() {
+    holds("spring_column", &mut Budget::kernel(46_600_000));
+}
+
+#[test]
+fn a_fluidized_bed_holds_its_claims() {
+    holds("fluidization", &mut Budget::kernel(111_600_000));
+}
+
+#[test]
 fn sphere_arrays_hold_their_claims() {
     holds("sphere_arrays", &mut Budget::kernel(160_000_000));
 }
