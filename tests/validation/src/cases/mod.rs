@@ -17,6 +17,7 @@ mod found;
 mod kernel_parity;
 mod kernel_speed;
 pub mod operators;
+mod oscillating;
 mod permeability;
 mod poiseuille;
 mod seepage;
@@ -30,6 +31,7 @@ mod suspension;
 mod ten_cate;
 mod tradeoff;
 mod twins;
+mod wet_rebound;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -51,6 +53,7 @@ use psmrt::table::{Table, TableError};
 pub use bench::{Bench, Finished, WatcherOf};
 pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use found::drawn;
+pub use oscillating::OscillatingSphere;
 pub use permeability::beds::{BedOfSpheres, RANDOM as PERMEABILITY_BED};
 pub use psmrt::seepage::laws::{BED_LAWS, BedLaw};
 pub use seepage::bed::{BedRun, Packing};
@@ -58,6 +61,7 @@ pub use sphere_drag::stream::Stream;
 pub use sphere_drag::study::{drag_by_grid, in_open_water};
 pub use steadiness::{Settled, steadiness};
 pub use study::Study;
+pub use wet_rebound::{WetRebound, wet_rebounds};
 
 /// A case of the acceptance suite.
 pub struct Case {
@@ -95,6 +99,7 @@ pub struct Case {
 pub const CASES: &[Case] = &[
     poiseuille::CASE,
     duct::CASE,
+    oscillating::CASE,
     sphere_arrays::CASE,
     sphere_drag::CASE,
     seepage::CASE,
@@ -102,6 +107,7 @@ pub const CASES: &[Case] = &[
     boiling::CASE,
     stokes_settling::CASE,
     ten_cate::CASE,
+    wet_rebound::CASE,
     suspension::CASE,
     cloud_settling::CASE,
     conformance::CASE,
