@@ -61,8 +61,8 @@ impl Oscillation {
         for (p, along_y) in odd().zip(&sines) {
             for (q, along_z) in odd().zip(&sines) {
                 let decay = self.nu * PI * PI * (p * p + q * q) / (n * n);
-                let factor =
-                    Complex::from(16.0 * force / (PI * PI * p * q)) / Complex::new(decay, self.omega);
+                let factor = Complex::from(16.0 * force / (PI * PI * p * q))
+                    / Complex::new(decay, self.omega);
                 let sines = along_z.iter().flat_map(|z| along_y.iter().map(move |y| y * z));
                 for (velocity, sine) in velocities.iter_mut().zip(sines) {
                     *velocity += factor * sine;

@@ -1,7 +1,7 @@
 //! The full form of the wet rebound: Stokes numbers, and what the rebound depends on.
 //!
 //! Adds one row per fall to `golden/wet_rebound/study.csv`, and its course to `courses.csv`, as it goes; falls that have a row
-//! are left out, so that it can be cut off and started again. An hour on two cores.
+//! are left out, so that it can be cut off and started again. Half an hour on two cores.
 //!
 //! ```text
 //! cargo run --release -p psmrt-validation --example wet_rebound_study

@@ -123,7 +123,7 @@ fn a_sphere_in_a_tank_holds_its_claims() {
 
 #[test]
 fn a_wet_rebound_holds_its_claims() {
-    holds("wet_rebound", &mut Budget::kernel(60_000_000));
+    holds("wet_rebound", &mut Budget::kernel(40_000_000));
 }
 
 #[test]

@@ -26,7 +26,8 @@ fn lag(amplitude: nalgebra::Complex<f64>) -> f64 {
 }
 
 fn profiles(rows: &Table, flow: &str) -> Result<Figure, CaseError> {
-    let where_of = if flow == "duct" { "Square duct, on the middle line" } else { "Between plates" };
+    let where_of =
+        if flow == "duct" { "Square duct, on the middle line" } else { "Between plates" };
     let mut figure = Figure::new(
         format!("{where_of}: a force that oscillates"),
         Axis::linear("distance from a wall over the width").range(0.0, 0.5),
@@ -104,13 +105,14 @@ fn grids(study: &Table) -> Result<Figure, CaseError> {
             let points = rows.iter().map(|row| (row[0], row[number])).collect();
             all.push(Series::line_points(operator, points).with_colour(colour));
         }
-        all.push(Series::new("exact, unbounded", Style::Reference, vec![(4.0, 1.0), (12.0, 1.0)]));
+        all.push(Series::new("exact, unbounded", Style::Reference, vec![(4.0, 1.0), (8.0, 1.0)]));
         Ok(all)
     };
     figure = each(1)?.into_iter().fold(figure, Figure::with);
     figure = figure.with_panel(Axis::linear("part with the acceleration over the exact one"));
     figure = each(2)?.into_iter().fold(figure, Figure::with);
-    Ok(figure.note("tau = 0.6, layer of half a radius, box of 12 radii; the fluid inside taken off"))
+    Ok(figure
+        .note("tau = 0.6, layer of half a radius, box of 12 radii; the fluid inside taken off"))
 }
 
 fn boxes(study: &Table, shells: &Table) -> Result<Figure, CaseError> {
@@ -123,7 +125,7 @@ fn boxes(study: &Table, shells: &Table) -> Result<Figure, CaseError> {
     let each = |number: usize, column: &str| -> Result<Vec<Series>, CaseError> {
         let rows = parts_by(study, &BOXES, "box_radii")?;
         let points = rows.iter().map(|row| (row[0], row[number])).collect();
-        let mut all = vec![Series::line_points("psmrt, 6 cells per radius", points)];
+        let mut all = vec![Series::line_points("psmrt, 4 cells per radius", points)];
         for shell in ["inscribed", "equal_volume", "circumscribed"] {
             let own = shells.with(&[("layer_radii", &layer), ("shell", shell)])?;
             let label = format!("exact, spherical shell: {}", shell.replace('_', " "));

@@ -40,7 +40,7 @@ pub const CASE: Case = Case {
     units: "womersley: half the width, or the radius, times the root of omega/nu; cells across the width, or per radius. Of plates and duct \
             re and im are the complex amplitude of the velocity over G/omega; of the sphere the parts of the force with velocity and with \
             acceleration over the exact ones, the fluid inside taken off",
-    full: "cargo run --release -p psmrt-validation --example oscillating_study made study.csv (half an hour; it can be cut off)",
+    full: "cargo run --release -p psmrt-validation --example oscillating_study made study.csv (a quarter of an hour; it can be cut off)",
     measure,
     judge,
     draw,

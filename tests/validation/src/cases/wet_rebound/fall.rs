@@ -175,7 +175,7 @@ pub struct Fall {
 }
 
 impl Fall {
-    fn of(mut course: Course, liquid: &Liquid) -> Self {
+    pub fn of(mut course: Course, liquid: &Liquid) -> Self {
         // The turn from down to up nearest to the wall, and the end of the contact in which it lies: where the gap passes 0.
         let turn = course.windows(2).position(|pair| pair[0][2] < 0.0 && pair[1][2] >= 0.0);
         let turn = turn.map_or(course.len() - 1, |row| row + 1);

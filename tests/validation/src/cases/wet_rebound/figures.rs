@@ -30,7 +30,10 @@ fn restitutions(study: &Table, literature: &Table, bounces: &Table) -> Result<Fi
         Axis::linear("restitution over the dry one").range(0.0, 1.0),
     );
     let curve = |law: fn(f64) -> f64| -> Vec<(f64, f64)> {
-        (0..=100).map(|i| 10.0_f64.powf(1.0 + 0.02 * f64::from(i))).map(|st| (st, law(st))).collect()
+        (0..=100)
+            .map(|i| 10.0_f64.powf(1.0 + 0.02 * f64::from(i)))
+            .map(|st| (st, law(st)))
+            .collect()
     };
     figure = figure
         .with(Series::line("exp(-35/St), Legendre et al. 2005", curve(|st| (-35.0 / st).exp())))
@@ -43,8 +46,12 @@ fn restitutions(study: &Table, literature: &Table, bounces: &Table) -> Result<Fi
     }
     let errors = vec![0.1; points.len()];
     figure = figure.with(
-        Series::new("measured courses, Gondret et al. 2002", Style::Points(Some(Marker::Square)), points)
-            .with_errors(errors),
+        Series::new(
+            "measured courses, Gondret et al. 2002",
+            Style::Points(Some(Marker::Square)),
+            points,
+        )
+        .with_errors(errors),
     );
     let mut points = Vec::new();
     for fall in MAIN {
@@ -91,14 +98,14 @@ fn low(
     for (label, fall) in [
         ("16 cells", MAIN[0]),
         ("12 cells", BASE),
-        ("12 cells, no lubrication", WetRebound { between: Between::Nothing, ..BASE }),
-        ("12 cells, lubrication in contact", WetRebound { between: Between::Always, ..BASE }),
+        ("no lubrication", WetRebound { between: Between::Nothing, ..BASE }),
+        ("lubrication in contact", WetRebound { between: Between::Always, ..BASE }),
     ] {
         figure = figure.with(Series::line(label, course(courses, &fall)?));
     }
     for engine in rows.values("engine")? {
         let own = rows.with(&[("engine", &engine)])?.points("time_d_over_u", "gap")?;
-        figure = figure.with(found("8 cells", &engine, own, None));
+        figure = figure.with(found("12 cells, quick form", &engine, own, None));
     }
     Ok(figure)
 }
@@ -137,5 +144,5 @@ fn trade(study: &Table, literature: &Table, bounces: &Table) -> Result<Figure, C
         .with(Series::new("scatter of measurements", Style::Reference, ends(expected + 0.1)))
         .with(Series::new("", Style::Reference, ends(expected - 0.1)))
         .with(Series::points("psmrt", points))
-        .note("as it is: 12 cells per diameter, contact of 20 steps, cut-off of a cell, roughness 0.001 a, no lubrication in contact"))
+        .note("as it is: 12 cells per diameter, contact of 20 steps, cut-off of a cell, roughness 0.003 a, no lubrication in contact"))
 }
