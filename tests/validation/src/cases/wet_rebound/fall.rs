@@ -42,6 +42,8 @@ pub struct WetRebound {
     pub smallest: f64,
     /// Duration of the contact, time steps.
     pub contact: f64,
+    /// Cells that the sphere falls in a step.
+    pub speed: f64,
     /// Half the width of the shaft, its height, and the gap at the start, diameters.
     pub shaft: [u32; 3],
     /// Time of the run after the sphere would have met the wall at its first velocity, in units of `d/U`.
@@ -50,9 +52,6 @@ pub struct WetRebound {
 
 /// Velocity at the start over that with which the sphere falls in the end: some of it goes into the fluid.
 const START: f64 = 1.2;
-
-/// Cells that the sphere falls in a step.
-const LATTICE_VELOCITY: f64 = 0.05;
 
 /// Time after contact at which the rebound is judged, in units of `d/U`; the gap over it is the velocity of the rebound. It is about
 /// that of the experiment's second point.
@@ -109,7 +108,7 @@ impl WetRebound {
         let Liquid { density, viscosity, diameter, velocity, .. } = liquid;
         let [half, height, start] = self.shaft;
         let dx = diameter / f64::from(self.cells);
-        let dt = LATTICE_VELOCITY * dx / velocity;
+        let dt = self.speed * dx / velocity;
         let [half, height] = [half, height].map(|diameters| diameters * self.cells);
         let smallest = 0.5 * self.smallest * diameter;
         // The correction is that beyond the cut-off: with both gaps alike there is none.
@@ -121,6 +120,7 @@ impl WetRebound {
             format!("domain.cells=[{half}, {half}, {height}]"),
             format!("fluid.density={density:e}"),
             format!("fluid.kinematic_viscosity={:e}", viscosity / density),
+            format!("time.lattice_velocity={}", self.speed),
             format!("time.reference_velocity={velocity:e}"),
             format!("grains[0].diameter={diameter:e}"),
             format!("grains[0].centre=[0.0, 0.0, {:e}]", (f64::from(start) + 0.5) * diameter),
@@ -153,8 +153,8 @@ impl WetRebound {
 
     /// What a row of the study begins with.
     pub fn start(&self) -> String {
-        let WetRebound { stokes, cells, between, cutoff, smallest, contact, .. } = self;
-        format!("{stokes},{cells},{},{cutoff},{smallest},{contact}", between.word())
+        let WetRebound { stokes, cells, between, cutoff, smallest, contact, speed, .. } = self;
+        format!("{stokes},{cells},{},{cutoff},{smallest},{contact},{speed}", between.word())
     }
 }
 

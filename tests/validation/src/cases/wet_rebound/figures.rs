@@ -99,7 +99,7 @@ fn low(
         ("16 cells", MAIN[0]),
         ("12 cells", BASE),
         ("no lubrication", WetRebound { between: Between::Nothing, ..BASE }),
-        ("lubrication in contact", WetRebound { between: Between::Always, ..BASE }),
+        ("roughness 0.01 a", WetRebound { smallest: 1e-2, ..BASE }),
     ] {
         figure = figure.with(Series::line(label, course(courses, &fall)?));
     }
@@ -144,5 +144,5 @@ fn trade(study: &Table, literature: &Table, bounces: &Table) -> Result<Figure, C
         .with(Series::new("scatter of measurements", Style::Reference, ends(expected + 0.1)))
         .with(Series::new("", Style::Reference, ends(expected - 0.1)))
         .with(Series::points("psmrt", points))
-        .note("as it is: 12 cells per diameter, contact of 20 steps, cut-off of a cell, roughness 0.003 a, no lubrication in contact"))
+        .note("as it is: 12 cells per diameter, 0.1 cells a step, contact of 0.1 steps, cut-off of a cell, roughness 0.001 a; dry: no lubrication in contact"))
 }
