@@ -28,10 +28,12 @@ pub const CASE: Case = Case {
          (Stokes' drag and half of Basset's force) and one with its acceleration (added mass and the other half), both exact in \
          unbounded fluid. What the method calls the force includes what moves the fluid inside the sphere: rho V du/dt belongs \
          to no real sphere and is taken off (free grains get it back, `coupling.internal_fluid`).",
-        "Three things make the parts differ from the exact ones. The grid: at a layer of half a radius and tau = 0.6 a sphere of 8 cells \
-         per radius has 4 % too much of the first and 2 % too little of the second, and errors grow with tau - 1/2, five times at \
-         0.8. The box: it matters as long as the layer at the surface reaches the walls; exact solutions within spherical shells \
-         (shell.py) show how much. The fluid inside: left in, the second part is 60 % too large.",
+        "Three things make the parts differ from the exact ones. The grid: with a layer of half a radius and tau = 0.6 the paper's operator has \
+         4 % too much of the first part and 2 % too little of the second at 8 cells per radius; at 6 cells 4 and 1 % at tau = 0.52, 6 and 5 % at \
+         0.6, 14 and 19 % at 0.8. The box: it counts as long as the layer reaches the walls; with a layer as thick as the radius a closed box of 8 \
+         radii takes 10 % of the second part, and exact solutions within spherical shells (shell.py) take as much. The fluid inside: left in, \
+         the second part is 60 % too large. Full bounce-back is better in the second part on coarse grids (1 % at 4 cells, where the paper's is \
+         13 % off) and worse in the first.",
     ],
     scenes: &["plates.toml", "duct.toml", "sphere.toml"],
     literature: &["literature.csv"],

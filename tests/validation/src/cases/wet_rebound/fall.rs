@@ -180,7 +180,11 @@ impl Fall {
         let turn = course.windows(2).position(|pair| pair[0][2] < 0.0 && pair[1][2] >= 0.0);
         let turn = turn.map_or(course.len() - 1, |row| row + 1);
         let parted = course[turn..].windows(2).find(|pair| pair[0][1] <= 0.0 && pair[1][1] > 0.0);
-        let end = parted.map_or(course[turn][0], |pair| {
+        // In a contact shorter than a step it is passed between two rows.
+        let [time, gap, velocity] = course[turn];
+        let step = course.get(1).map_or(0.0, |row| row[0] - course[0][0]);
+        let at_once = time - (gap / velocity.max(1e-9)).clamp(0.0, step);
+        let end = parted.map_or(at_once, |pair| {
             pair[0][0] - pair[0][1] * (pair[1][0] - pair[0][0]) / (pair[1][1] - pair[0][1])
         });
         for row in &mut course {

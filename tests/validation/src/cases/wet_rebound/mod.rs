@@ -49,14 +49,11 @@ pub const CASE: Case = Case {
 /// The impact of scene.toml.
 pub const QUICK: WetRebound = WetRebound { shaft: [2, 4, 2], after: 0.8, ..study::BASE };
 
-/// Every so manieth row of a run is kept.
-const KEPT: usize = 8;
-
 fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     let literature = bench.literature(CASE.name, "literature.csv")?;
     let fall = QUICK.run(bench, &literature)?;
     let mut table = Table::new(&["engine", "time_d_over_u", "gap", "velocity"]);
-    for row in fall.course.iter().step_by(KEPT) {
+    for row in &fall.course {
         let mut words = vec![bench.engine_name().word().to_owned()];
         words.extend(row.iter().map(|value| format!("{value:.5}")));
         table.add(words);

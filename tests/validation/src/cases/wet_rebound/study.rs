@@ -61,7 +61,7 @@ pub const MORE: [WetRebound; 10] = [
 ];
 
 /// Every so manieth row of a course is kept.
-const KEPT: usize = 16;
+const KEPT: usize = 4;
 
 impl WetRebound {
     /// Its row of the study, and the rows of its course. Errors if it cannot be run.
