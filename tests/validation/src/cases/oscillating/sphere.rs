@@ -78,7 +78,7 @@ impl OscillatingSphere {
         let (run, _) = bench.run("oscillating/sphere.toml", &self.changes())?;
         let forces = run.record("sphere")?.points("time (s)", "force_x (N)")?;
         let last = forces.into_iter().filter(|sample| sample.0 > 0.5 * TAU / omega);
-        let force = amplitude(last, omega)? * QUARTERS;
+        let force = amplitude(last, omega, None)? * QUARTERS;
         // u = U sin ωt = Re[-iU e^(iωt)], F = -C_u u - C_a du/dt: F̂ = (i C_u - ω C_a) U
         let speed = omega * STROKE * SI_RADIUS;
         let found = [force.im / speed, -force.re / (omega * speed)];

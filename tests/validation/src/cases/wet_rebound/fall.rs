@@ -179,7 +179,9 @@ impl Fall {
         // The turn from down to up nearest to the wall, and the end of the contact in which it lies: where the gap passes 0.
         let turn = course.windows(2).position(|pair| pair[0][2] < 0.0 && pair[1][2] >= 0.0);
         let turn = turn.map_or(course.len() - 1, |row| row + 1);
-        let parted = course[turn..].windows(2).find(|pair| pair[0][1] <= 0.0 && pair[1][1] > 0.0);
+        let touches = course[turn][1] <= 0.0;
+        let parting = |pair: &&[[f64; 3]]| touches && pair[0][1] <= 0.0 && pair[1][1] > 0.0;
+        let parted = course[turn..].windows(2).find(parting);
         // In a contact shorter than a step it is passed between two rows.
         let [time, gap, velocity] = course[turn];
         let step = course.get(1).map_or(0.0, |row| row[0] - course[0][0]);
