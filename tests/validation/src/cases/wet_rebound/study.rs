@@ -37,13 +37,13 @@ pub const TRADE: [(&str, WetRebound); 10] = [
     ("as it is", BASE),
     ("8 cells", WetRebound { cells: 8, ..BASE }),
     ("16 cells", MAIN[0]),
-    ("0.05 cells a step", WetRebound { speed: 0.05, ..BASE }),
-    ("cut-off of 2 cells", WetRebound { cutoff: 2.0, ..BASE }),
-    ("roughness 0.003 a", WetRebound { smallest: 3e-3, ..BASE }),
-    ("roughness 0.01 a", WetRebound { smallest: 1e-2, ..BASE }),
-    ("no lubrication", WetRebound { between: Between::Nothing, ..BASE }),
-    ("contact of 10 steps", WetRebound { contact: 10.0, ..BASE }),
-    ("10 steps, dry", WetRebound { between: Between::WhileApart, contact: 10.0, ..BASE }),
+    ("slower", WetRebound { speed: 0.05, ..BASE }),
+    ("cut-off 2", WetRebound { cutoff: 2.0, ..BASE }),
+    ("0.003 a", WetRebound { smallest: 3e-3, ..BASE }),
+    ("0.01 a", WetRebound { smallest: 1e-2, ..BASE }),
+    ("none", WetRebound { between: Between::Nothing, ..BASE }),
+    ("10 steps", WetRebound { contact: 10.0, ..BASE }),
+    ("10, dry", WetRebound { between: Between::WhileApart, contact: 10.0, ..BASE }),
 ];
 
 /// More of them: longer contacts without lubrication in them, and other Stokes numbers.
