@@ -48,6 +48,10 @@ pub struct LubricationSection {
     /// Gap below which it no longer grows, m: the roughness of the grains; a thousandth of the smallest
     /// radius where absent.
     pub smallest_gap: Option<f64>,
+    /// Whether it acts on grains that overlap, as at the smallest gap; `true` where absent. It calms contacts at rest, and
+    /// takes most of a rebound in contacts that are stretched to several time steps: `false` leaves those to the
+    /// contact's own restitution (golden/wet_rebound).
+    pub while_touching: Option<bool>,
 }
 
 /// Gravity on free grains.

@@ -12,6 +12,7 @@ pub mod settling;
 pub mod solid_rules;
 pub mod sphere_quadrature;
 pub mod suspension;
+pub mod womersley;
 
 use psmrt_reference::solver::Solver;
 use std::path::Path;

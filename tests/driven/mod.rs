@@ -15,6 +15,7 @@ use psmrt_reference::setup::Setup;
 
 use crate::common::Budget;
 use crate::common::collisions::magic;
+use crate::common::womersley::{Oscillation, at_time};
 
 /// Fluid between two plates at `y = 0` and `y = n`, along x. A force `G cos ωt` and an upper plate of velocity
 /// `U cos ωt` move it.
@@ -34,21 +35,6 @@ const WOMERSLEY: f64 = 4.0;
 const TAU_OF_FLUID: f64 = 0.8;
 const NU: f64 = (TAU_OF_FLUID - 0.5) / 3.0;
 
-/// `sinh` of `x (1 + i)`, real and imaginary part.
-fn sinh(x: f64) -> [f64; 2] {
-    [x.sinh() * x.cos(), x.cosh() * x.sin()]
-}
-
-/// `cosh` of `x (1 + i)`.
-fn cosh(x: f64) -> [f64; 2] {
-    [x.cosh() * x.cos(), x.sinh() * x.sin()]
-}
-
-fn over([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
-    let squared = c * c + d * d;
-    [(a * c + b * d) / squared, (b * c - a * d) / squared]
-}
-
 impl Plates {
     /// Steps of one period.
     fn period(self) -> f64 {
@@ -63,20 +49,12 @@ impl Plates {
         self.force * (16.0 / self.n as f64).powi(2)
     }
 
-    /// The exact velocity at height `y` and time `t`.
-    ///
-    /// `u = Re[(G/(iω) (1 - cosh(λ(y - n/2))/cosh(λn/2)) + U sinh(λy)/sinh(λn)) exp(iωt)]`, `λ = (1 + i) √(ω/2ν)`:
-    /// Womersley's flow (J. Physiol. 127, 553 (1955)) between plates, and Stokes' second problem with a plate at rest
-    /// opposite (Schlichting & Gersten, Boundary-Layer Theory, ch. 5).
+    /// The exact velocity at height `y` and time `t`: that of the force and that of the plate.
     fn exact(self, y: f64, t: f64) -> f64 {
-        let (n, omega) = (self.n as f64, self.omega());
-        let k = (omega / (2.0 * NU)).sqrt();
-        let [re, im] = over(cosh(k * (y - 0.5 * n)), cosh(0.5 * k * n));
-        // (1 - r)/i = -i (1 - r)
-        let by_force = [-im, -(1.0 - re)].map(|part| part * self.force_now() / omega);
-        let by_lid = over(sinh(k * y), sinh(k * n)).map(|part| part * self.lid);
-        let (sin, cos) = (omega * t).sin_cos();
-        (by_force[0] + by_lid[0]) * cos - (by_force[1] + by_lid[1]) * sin
+        let (n, flow) = (self.n as f64, Oscillation { nu: NU, omega: self.omega() });
+        let amplitude =
+            flow.between_plates(self.force_now(), n, y) + flow.below_moving_plate(self.lid, n, y);
+        at_time(amplitude, flow.omega, t)
     }
 
     /// Sets what drives it in the step that begins at `t`: the force acts then, the plate half a step later.

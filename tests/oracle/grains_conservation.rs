@@ -86,7 +86,7 @@ proptest! {
         // Angular momentum too: both forces of a contact act at one and the same point, and couples
         // of rolling resistance are opposite. That holds for any sub-step, here a coarse one.
         let lubrication =
-            wet.then_some(Lubrication { viscosity: 0.05, cutoff_gap: 0.3, smallest_gap: 0.05 });
+            wet.then_some(Lubrication { viscosity: 0.05, cutoff_gap: 0.3, smallest_gap: 0.05, while_touching: true });
         let setup = GrainSetup { lubrication, ..GrainSetup::new(law) };
         let mut system = GrainSystem::new(setup, cluster(count, seed), Vec::new()).unwrap();
         let (p, l) = (momentum(system.grains()), angular_momentum(system.grains()));

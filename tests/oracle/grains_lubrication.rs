@@ -13,7 +13,8 @@ use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
-const LAW: Lubrication = Lubrication { viscosity: 0.7, cutoff_gap: 0.2, smallest_gap: 1e-3 };
+const LAW: Lubrication =
+    Lubrication { viscosity: 0.7, cutoff_gap: 0.2, smallest_gap: 1e-3, while_touching: true };
 
 #[test]
 fn force_resolved_at_the_cut_off_and_correction_together_are_the_exact_force() {
@@ -45,6 +46,10 @@ fn force_resolved_at_the_cut_off_and_correction_together_are_the_exact_force() {
     assert_eq!(LAW.at_plane(0.2, a), 0.0);
     assert_eq!(LAW.between_spheres(0.3, [a, 1.0]), 0.0);
     assert_eq!(LAW.at_plane(-0.1, a), LAW.at_plane(1e-3, a));
+    // Where contact is left to itself, the same up to the moment at which surfaces touch.
+    let apart = Lubrication { while_touching: false, ..LAW };
+    assert_eq!(apart.at_plane(0.0, a), LAW.at_plane(1e-3, a));
+    assert_eq!([apart.at_plane(-1e-9, a), apart.between_spheres(-1e-9, [a, a])], [0.0, 0.0]);
 }
 
 #[test]

@@ -119,7 +119,8 @@ fn sub_steps_are_chosen_and_refused_by_the_contact_duration() {
     // Lubrication at its smallest gap: five times m/c, c = 6π μ a²/h about.
     let oil = |setup: &mut GrainSetup, _: &mut Vec<Grain>, _: &mut Vec<Plane>| {
         let (viscosity, cutoff_gap, smallest_gap) = (1.0, 0.1, 1e-3);
-        setup.lubrication = Some(Lubrication { viscosity, cutoff_gap, smallest_gap });
+        setup.lubrication =
+            Some(Lubrication { viscosity, cutoff_gap, smallest_gap, while_touching: true });
     };
     let slowest = 5.0 / (6.0 * std::f64::consts::PI * 0.25 / 1e-3);
     assert!((time(oil) / slowest - 1.0).abs() < 0.02);

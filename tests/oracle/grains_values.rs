@@ -117,7 +117,9 @@ fn lubrication_between_unequal_spheres_is_jeffrey_s_whichever_is_first() {
     // Derjaguin's radius a₁ a₂/(a₁ + a₂):
     //   F/u = 6π μ [(a₁ a₂/(a₁ + a₂))² (1/h - 1/h_c) + a₁ a₂ (a₁² + 7 a₁ a₂ + a₂²)/(5 (a₁ + a₂)³) ln(h_c/h)]
     let law =
-        Lubrication { viscosity: 0.7, cutoff_gap: 0.5, smallest_gap: 0.01 }.checked().unwrap();
+        Lubrication { viscosity: 0.7, cutoff_gap: 0.5, smallest_gap: 0.01, while_touching: true }
+            .checked()
+            .unwrap();
     let (a1, a2, h) = (1.5_f64, 4.0_f64, 0.125_f64);
     let (product, sum) = (a1 * a2, a1 + a2);
     let squeezed = (product / sum).powi(2) * (1.0 / h - 1.0 / 0.5);

@@ -151,8 +151,13 @@ fn sphere_approaches_a_wall_by_the_exact_law_down_to_half_a_cell_and_with_lubric
         found < 0.5 * exact,
         "without lubrication the resolved force {found} ought to be below half of the exact {exact}"
     );
-    let lubrication =
-        Lubrication { viscosity: viscosity(TAU), cutoff_gap: 0.3, smallest_gap: 1e-3 }.checked();
+    let lubrication = Lubrication {
+        viscosity: viscosity(TAU),
+        cutoff_gap: 0.3,
+        smallest_gap: 1e-3,
+        while_touching: true,
+    }
+    .checked();
     let added = lubrication.unwrap().at_plane(gap, radius) / (6.0 * PI * viscosity(TAU) * radius);
     println!("gap of {gap} cells: {found:.3} and {added:.3} by lubrication, exact {exact:.3}");
     // The grid's own drag still grows a little below its cut-off, by an amount of the order of its

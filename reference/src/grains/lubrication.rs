@@ -23,9 +23,11 @@ pub struct Lubrication {
     pub viscosity: f64,
     /// Gap from which the correction acts, length: what the fluid's grid resolves.
     pub cutoff_gap: f64,
-    /// Gap below which the force grows no more, length: the roughness of the surfaces. It stays
-    /// there as long as they touch.
+    /// Gap below which the force grows no more, length: the roughness of the surfaces.
     pub smallest_gap: f64,
+    /// Whether it stays there as long as the surfaces touch. A contact that lasts longer than a real one is damped by
+    /// it: by `exp(-C t/m)`, `C` the coefficient at the smallest gap, in a contact of duration `t` of a mass `m`.
+    pub while_touching: bool,
 }
 
 /// A correction that cannot be used.
@@ -56,7 +58,7 @@ pub enum LubricationError {
 impl Lubrication {
     /// This correction if its values can be used.
     pub fn checked(self) -> Result<Self, LubricationError> {
-        let Lubrication { viscosity, cutoff_gap: cutoff, smallest_gap: smallest } = self;
+        let Lubrication { viscosity, cutoff_gap: cutoff, smallest_gap: smallest, .. } = self;
         if !(viscosity > 0.0 && viscosity.is_finite()) {
             return Err(LubricationError::Viscosity { value: viscosity });
         }
@@ -87,7 +89,8 @@ impl Lubrication {
     /// `6π μ a [g₁ (l/h - l/h_c) + g₂ ln(h_c/h)]`, `l` being the length by which gaps are divided.
     fn beyond_cutoff(&self, gap: f64, a: f64, l: f64, g1: f64, g2: f64) -> f64 {
         let (h, cutoff) = (gap.max(self.smallest_gap), self.cutoff_gap);
-        if h >= cutoff {
+        let is_left_to_contact = gap < 0.0 && !self.while_touching;
+        if h >= cutoff || is_left_to_contact {
             return 0.0;
         }
         6.0 * PI * self.viscosity * a * (g1 * (l / h - l / cutoff) + g2 * (cutoff / h).ln())

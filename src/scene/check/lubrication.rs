@@ -48,7 +48,9 @@ impl Maker<'_> {
             return Err(Trouble::new("lubrication.cutoff_gap", problem, remedy));
         }
         if smallest_gap < cutoff_gap {
-            return Ok(Lubrication { viscosity: viscosity(self.tau), cutoff_gap, smallest_gap });
+            let while_touching = section.while_touching.unwrap_or(true);
+            let viscosity = viscosity(self.tau);
+            return Ok(Lubrication { viscosity, cutoff_gap, smallest_gap, while_touching });
         }
         let key = if section.smallest_gap.is_some() { "smallest_gap" } else { "cutoff_gap" };
         let problem = format!(

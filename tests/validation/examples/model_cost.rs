@@ -268,6 +268,7 @@ fn free(side: usize, pitch: f64, lubricated: bool) -> Result<FreePart, Failure> 
     let law = ContactLaw::from_duration_and_restitution(10.0, 0.5, 0.5 * grains[0].mass)?
         .with_friction(0.5)?;
     let lubrication = lubricated.then(|| Lubrication {
+        while_touching: true,
         viscosity: viscosity(TAU),
         cutoff_gap: 1.0,
         smallest_gap: 0.005,

@@ -18,6 +18,7 @@ mod found;
 mod kernel_parity;
 mod kernel_speed;
 pub mod operators;
+mod oscillating;
 mod permeability;
 mod poiseuille;
 mod seepage;
@@ -33,6 +34,7 @@ mod ten_cate;
 mod tradeoff;
 mod twins;
 pub mod viscosity;
+mod wet_rebound;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -57,6 +59,7 @@ pub use fluidization::bed::{
     FluidizedBed, RUNS as FLUIDIZED_BEDS, Records as BedRecords, rows_of as rows_of_bed,
 };
 pub use found::drawn;
+pub use oscillating::OscillatingSphere;
 pub use permeability::beds::{BedOfSpheres, RANDOM as PERMEABILITY_BED};
 pub use psmrt::seepage::laws::{BED_LAWS, BedLaw};
 pub use seepage::bed::{BedRun, Packing};
@@ -64,6 +67,7 @@ pub use sphere_drag::stream::Stream;
 pub use sphere_drag::study::{drag_by_grid, in_open_water};
 pub use steadiness::{Settled, steadiness};
 pub use study::Study;
+pub use wet_rebound::{WetRebound, wet_rebounds};
 
 /// A case of the acceptance suite.
 pub struct Case {
@@ -101,6 +105,7 @@ pub struct Case {
 pub const CASES: &[Case] = &[
     poiseuille::CASE,
     duct::CASE,
+    oscillating::CASE,
     sphere_arrays::CASE,
     sphere_drag::CASE,
     seepage::CASE,
@@ -110,6 +115,7 @@ pub const CASES: &[Case] = &[
     fluidization::CASE,
     stokes_settling::CASE,
     ten_cate::CASE,
+    wet_rebound::CASE,
     suspension::CASE,
     viscosity::CASE,
     cloud_settling::CASE,

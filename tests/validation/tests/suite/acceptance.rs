@@ -77,6 +77,11 @@ fn flow_in_a_duct_holds_its_claims() {
 }
 
 #[test]
+fn oscillating_flows_hold_their_claims() {
+    holds("oscillating", &mut Budget::kernel(72_000_000));
+}
+
+#[test]
 fn a_sphere_in_a_stream_holds_its_claims() {
     holds("sphere_drag", &mut Budget::kernel(115_000_000));
 }
@@ -129,6 +134,11 @@ fn a_settling_cloud_holds_its_claims() {
 #[test]
 fn a_sphere_in_a_tank_holds_its_claims() {
     holds("ten_cate", &mut Budget::kernel(36_000_000));
+}
+
+#[test]
+fn a_wet_rebound_holds_its_claims() {
+    holds("wet_rebound", &mut Budget::kernel(40_000_000));
 }
 
 #[test]
