@@ -125,9 +125,10 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
     models.push(format!("contact: spring and dashpot, {friction}{rolling} (contact; keys that are absent take defaults)"));
     if let Some(lubrication) = part.setup.lubrication {
         models.push(format!(
-            "lubrication: between gaps of {:.3e} and {:.3e} m (lubrication)",
+            "lubrication: between gaps of {:.3e} and {:.3e} m{} (lubrication)",
             lubrication.smallest_gap * scene.units.si_dx,
-            lubrication.cutoff_gap * scene.units.si_dx
+            lubrication.cutoff_gap * scene.units.si_dx,
+            if lubrication.while_touching { "" } else { ", not in contacts" }
         ));
     }
     match settings.gravity {

@@ -260,6 +260,7 @@ pub const BAD: &[Bad] = &[
     Bad("[coupling]", "[lubrication]\n[coupling]", "lubrication", "mirror plane"),
     Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\nsmallest_gap = -1e-9", "lubrication.smallest_gap", "above 0"),
     Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\ncutoff_gap = 1e-9", "lubrication.cutoff_gap", "a thousandth"),
+    Bad("y_high.kind = \"free_slip\"", "y_high.kind = \"wall\"\n[lubrication]\nwhile_touching = 1", "lubrication.while_touching", "true or false"),
     Bad("centre = [5e-4, 2.5e-4, 2.5e-4]", "centre = [5e-4, 4.9e-4, 2.5e-4]", "grains[2].centre", "its own image"),
     Bad("centre = [5e-4, 2.5e-4, 2.5e-4]", "centre = [5e-4, 5e-4, 2.5e-4]", "grains[0].centre", "all centres on the plane or none"),
     Bad("column = \"density\"", "column = \"kinetic_energy\"", "stop.steady.column", "superficial_velocity_x"),
