@@ -85,7 +85,7 @@ pub(super) fn combinations(axes: &[Axis]) -> Result<Vec<Planned>, CommandError> 
     let mut all: Vec<Vec<String>> = vec![Vec::new()];
     for axis in axes {
         let with = |values: &Vec<String>| -> Vec<Vec<String>> {
-            let one = |value: &String| [values.as_slice(), &[value.clone()]].concat();
+            let one = |value: &String| [values.as_slice(), std::slice::from_ref(value)].concat();
             axis.values.iter().map(one).collect()
         };
         all = all.iter().flat_map(with).collect();
