@@ -37,6 +37,7 @@ mod cli_resume;
 mod cli_resume_refused;
 mod cli_run;
 mod cli_sweep;
+mod cli_viscosity;
 mod conformance_files;
 mod conformance_oracle;
 mod cpu_engine;
