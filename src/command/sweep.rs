@@ -49,16 +49,22 @@ pub fn sweep(request: &SweepRequest) -> Result<(), CommandError> {
     let all = combinations(&axes)?;
     let given: Vec<String> = axes.iter().map(|axis| format!("{}=", axis.key)).collect();
     scene::differ(&[&request.set[..], &given].concat())?;
-    // All are read before one is run.
+    // All are read, and those that are there looked at, before one is run or the table is touched.
     for planned in &all {
-        load(request, planned, &axes)?;
+        let scene = load(request, planned, &axes)?;
+        let path = request.out.as_ref().map(|out| out.join(&planned.name));
+        if let Some(path) = path.filter(|path| path.join(SCENE).is_file()) {
+            check_is_of(&path, &scene, &request.scene)?;
+        }
     }
     let folder = held(match &request.out {
         Some(out) if out.join(TABLE).is_file() => RunFolder::open(out)?,
         out => RunFolder::make(out.as_deref(), &format!("{}-sweep", scene_name(&request.scene)))?,
     });
     let mut done: Vec<Done> = Vec::new();
-    write_table(&folder, &axes, &done)?;
+    if !folder.path().join(TABLE).exists() {
+        write_table(&folder, &axes, &done)?;
+    }
     for (number, planned) in all.iter().enumerate() {
         if !request.json {
             let changes = planned.changes(&axes).join(", ");
@@ -166,13 +172,6 @@ fn one(
     let path = sweep.path().join(&planned.name);
     let scene = load(request, planned, axes)?;
     let is_there = path.join(SCENE).is_file();
-    if is_there && !is_of(&path, &scene)? {
-        return Err(CommandError::Usage(format!(
-            "{} holds a run of another scene than {} is now: give another folder by --out, or remove it",
-            path.display(),
-            request.scene.display()
-        )));
-    }
     if let Some(facts) = if is_there { finished(&path)? } else { None } {
         if !request.json {
             tell(&format!("{} has finished before", path.display()));
@@ -210,6 +209,18 @@ fn one(
     // As they will be read when the sweep is given again.
     let facts = finished(&path)?.unwrap_or(ended.facts);
     Ok(Done { facts, ..Done::of(planned) })
+}
+
+/// Errors if the folder of a run holds that of another scene.
+fn check_is_of(path: &Path, scene: &Scene, file: &Path) -> Result<(), CommandError> {
+    if is_of(path, scene)? {
+        return Ok(());
+    }
+    Err(CommandError::Usage(format!(
+        "{} holds a run of another scene than {} is now: give another folder by --out, or remove it",
+        path.display(),
+        file.display()
+    )))
 }
 
 /// Whether the folder of a run has kept this scene, with the same files.

@@ -62,6 +62,7 @@ fn every_combination_runs_and_one_table_has_what_they_have_shown() {
     let other = sweep("0.6,0.8");
     assert_eq!(other.status.code(), Some(2));
     assert!(stderr(&other).contains("holds a run of another scene"), "{}", stderr(&other));
+    assert_eq!(table().rows.len(), 6, "the table was touched");
 }
 
 #[test]
