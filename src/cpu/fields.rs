@@ -74,6 +74,8 @@ pub(super) struct Adding<'a, T> {
     pub(super) of: (&'a Coverage<T>, &'a [Solid]),
     pub(super) run: usize,
     pub(super) first: usize,
+    /// Whether somebody asks how fast they are.
+    pub(super) with_motion: bool,
 }
 
 impl<T: Real> WithSimd for Adding<'_, T> {
@@ -81,7 +83,8 @@ impl<T: Real> WithSimd for Adding<'_, T> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        self.fields.add(self.of, self.run, self.first);
+        let Adding { fields, of, run, first, with_motion } = self;
+        fields.add(of, run, first, with_motion);
     }
 }
 
@@ -141,17 +144,19 @@ impl<T: Real> Fields<T> {
         self.has_motion.then(|| self.motion.each_ref().map(Vec::as_slice))
     }
 
-    /// Adds what the solids cover of run number `run`, the first cell of which is `first`.
+    /// Adds what the solids cover of run number `run`, the first cell of which is `first`; their velocities only
+    /// `with_motion`.
     #[inline(always)]
     pub(super) fn add(
         &mut self,
         (coverage, solids): (&Coverage<T>, &[Solid]),
         run: usize,
         first: usize,
+        with_motion: bool,
     ) {
         coverage.fetch(run);
         let parts = coverage.parts(run);
-        self.has_motion = parts.iter().any(|part| solids[part.solid].has_velocity());
+        self.has_motion = with_motion && parts.iter().any(|part| solids[part.solid].has_velocity());
         if self.has_motion {
             let cells = self.epsilon.len();
             self.motion.iter_mut().for_each(|motion| motion.resize(cells, T::default()));

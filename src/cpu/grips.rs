@@ -3,11 +3,12 @@
 use nalgebra::Matrix3;
 use psmrt_reference::directions::Q;
 use psmrt_reference::lattice::Vec3;
-use psmrt_reference::solids::Grip;
+use psmrt_reference::solids::{Grip, Load, Solid};
 use pulp::{Simd, WithSimd};
 
 use super::collision::{Collider, Rules};
 use super::fields::{Fields, Seen};
+use super::prefetch::{ahead_of, ask_ahead};
 use super::rigid::EIGHT;
 use crate::lanes::{Lanes, Real};
 
@@ -35,7 +36,14 @@ impl<T: Real> WithSimd for Looking<'_, '_, T> {
         let (epsilons, last_epsilon) = T::Lanes::<S>::split(&self.fields.epsilon[..cells]);
         let [(rho, rho_), (x, x_), (y, y_), (z, z_), (share, share_)] =
             self.seen.of.each_mut().map(|of| <T::Lanes<S> as Lanes>::split_mut(&mut of[..cells]));
+        let ahead = ahead_of::<<T::Lanes<S> as Lanes>::Raw>();
         for i in 0..vectors {
+            // Of what is far ahead only what will be looked at: the rest need not come from memory.
+            if i + ahead < vectors && self.fields.is_covered((i + ahead) * lanes, lanes) {
+                for body in &bodies {
+                    ask_ahead(body, i);
+                }
+            }
             if !self.fields.is_covered(i * lanes, lanes) {
                 continue;
             }
@@ -165,6 +173,15 @@ impl Sums {
         };
         Held { solid, grip }
     }
+}
+
+/// What a solid receives in the collision, and its `Σ B_s`.
+pub(super) fn received_by((grip, solid): (&Grip, &Solid)) -> (Load, f64) {
+    let (u, w) = (solid.velocity, solid.angular_velocity);
+    // F = J - m U - ω × S,  T = L - S × U - Θ ω
+    let force = grip.impulse - grip.mass * u - w.cross(&grip.mass_arm);
+    let torque = grip.moment - grip.mass_arm.cross(&u) - grip.inertia * w;
+    (Load { force, torque }, grip.displaced)
 }
 
 /// The grips of each of `solids` solids, added up in the order of the runs.

@@ -5,6 +5,7 @@ use pulp::{Simd, WithSimd};
 
 use super::collision::Collider;
 use super::fields::Seen;
+use super::rigid::EIGHT;
 use crate::lanes::{Lanes, Real};
 
 /// Density less 1 and momentum of cells, from their populations.
@@ -39,6 +40,38 @@ impl<T: Real> WithSimd for Sums<'_, T> {
             jy.store_some(y_);
             jz.store_some(z_);
         }
+    }
+}
+
+/// Looks at density and momentum of the first `count` cells as a guard would: the square of the largest speed, and
+/// whether all densities are positive and all speeds at most `limit`.
+pub(super) struct Judging<'a, T> {
+    pub(super) seen: &'a Seen<T>,
+    pub(super) count: usize,
+    pub(super) limit: f64,
+}
+
+impl<T: Real> WithSimd for Judging<'_, T> {
+    type Output = (f64, bool);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> (f64, bool) {
+        let (mut fastest, mut is_fit) = ([0.0_f64; EIGHT], [true; EIGHT]);
+        let most = self.limit * self.limit;
+        for at in (0..self.count).step_by(EIGHT) {
+            let Some([excess, jx, jy, jz, _]) = self.seen.eight(at) else { break };
+            // What lies behind the last cell is left from other runs.
+            let cells = EIGHT.min(self.count - at);
+            for x in 0..EIGHT {
+                let [jx, jy, jz] = [jx[x].to_f64(), jy[x].to_f64(), jz[x].to_f64()];
+                let rho = 1.0 + excess[x].to_f64();
+                let square = (jx * jx + jy * jy + jz * jz) / (rho * rho);
+                let counts = x < cells;
+                fastest[x] = if counts & (square > fastest[x]) { square } else { fastest[x] };
+                is_fit[x] &= !counts | ((rho > 0.0) & (square <= most));
+            }
+        }
+        (fastest.into_iter().fold(0.0, f64::max), is_fit == [true; EIGHT])
     }
 }
 

@@ -15,10 +15,14 @@ const LEAST: usize = 32;
 /// Asks for the memory of `values` some way behind number `at`, which may lie beyond their end.
 #[inline(always)]
 pub(super) fn ask_ahead<V>(values: &[V], at: usize) {
-    let size = size_of::<V>();
-    if size >= LEAST {
-        ask(values.as_ptr().wrapping_add(at + AHEAD / size));
+    if ahead_of::<V>() > 0 {
+        ask(values.as_ptr().wrapping_add(at + ahead_of::<V>()));
     }
+}
+
+/// How many numbers of type `V` lie that far ahead; 0 for those that are not asked for ahead.
+pub(super) const fn ahead_of<V>() -> usize {
+    if size_of::<V>() >= LEAST { AHEAD / size_of::<V>() } else { 0 }
 }
 
 /// Asks for the memory of the first of `values`.

@@ -102,7 +102,7 @@ impl<T: Real> FluidEngine for CpuEngine<T> {
         Ok(BoxMeans { density, mass_flux, max_speed })
     }
 
-    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
+    fn findings(&mut self, guard: &Guard) -> Result<Findings, DeviceError> {
         Ok(self.fluid.findings(guard))
     }
 

@@ -94,7 +94,7 @@ pub trait FluidEngine: fmt::Debug + Send {
     fn means(&self) -> Result<BoxMeans, DeviceError>;
 
     /// What `guard` wants to know of all cells.
-    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError>;
+    fn findings(&mut self, guard: &Guard) -> Result<Findings, DeviceError>;
 
     /// The state of the cells of a block, x fastest, z slowest.
     fn cells(&self, block: Block) -> Result<Vec<CellState>, DeviceError>;

@@ -113,7 +113,7 @@ impl FluidEngine for ReferenceEngine {
         })
     }
 
-    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
+    fn findings(&mut self, guard: &Guard) -> Result<Findings, DeviceError> {
         Ok(guard.findings(self.solver.populations()))
     }
 

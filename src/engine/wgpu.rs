@@ -90,7 +90,7 @@ impl FluidEngine for KernelEngine {
         Ok(BoxMeans { density, mass_flux, max_speed: speed })
     }
 
-    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
+    fn findings(&mut self, guard: &Guard) -> Result<Findings, DeviceError> {
         let Summary { density, bare_speed, broken, .. } = self.kernel.summary()?;
         let broken = match broken {
             None => None,

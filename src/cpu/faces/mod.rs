@@ -216,8 +216,8 @@ impl<T: Real> EnteringNow<'_, T> {
         });
         let unasked = Near { excess: 0.0, velocity: Vec3::zeros() };
         for (column, values) in self.columns.iter().zip(next) {
-            if let Rule::Copy { direction, .. } = &column.rule {
-                let from = run[OPPOSITE[*direction]][column.from..].iter().step_by(nx);
+            if let Some(direction) = column.rule.copied(domain, column.direction) {
+                let from = run[OPPOSITE[direction]][column.from..].iter().step_by(nx);
                 values.iter_mut().zip(from).for_each(|(value, from)| *value = *from);
                 continue;
             }

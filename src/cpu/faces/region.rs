@@ -55,14 +55,15 @@ impl<T: Real> Region<T> {
         let Region { direction, low, high, rule, values } = self;
         let (a, [nx, ny, _]) = (*direction, domain.cells());
         let width = high[0] - low[0];
+        let copied = rule.copied(domain, a);
         let mut rows = values.chunks_mut(width.max(1));
         for z in low[2]..high[2] {
             for y in low[1]..high[1] {
                 let Some(row) = rows.next() else { return };
                 let first = low[0] + nx * (y + ny * z);
                 let from = first.wrapping_add_signed(rule.shift());
-                if let Rule::Copy { direction, .. } = rule {
-                    copy(&grid.after(*direction)[from..from + width], row);
+                if let Some(direction) = copied {
+                    copy(&grid.after(direction)[from..from + width], row);
                     continue;
                 }
                 for (x, value) in row.iter_mut().enumerate() {

@@ -38,6 +38,18 @@ impl Rule {
         }
     }
 
+    /// The direction whose `f*`, of the cell that is looked at, enters along `a` as it is, with the velocities of now: any
+    /// but those that walls in motion or held densities change.
+    pub(super) fn copied(&self, domain: &Domain, a: usize) -> Option<usize> {
+        match self {
+            Rule::Copy { direction, .. } => Some(*direction),
+            Rule::BounceBack { faces } if wall_gain(domain, faces, a) == 0.0 => Some(OPPOSITE[a]),
+            Rule::BounceBack { .. } | Rule::AntiBounceBack { .. } | Rule::CarriedOver { .. } => {
+                None
+            }
+        }
+    }
+
     /// Whether it asks for density and velocity of the cell that it comes from.
     pub(super) fn asks_for_state(&self, domain: &Domain) -> bool {
         match self {
@@ -63,13 +75,8 @@ impl Rule {
         match self {
             Rule::Copy { direction, .. } => f(*direction),
             Rule::BounceBack { faces } => {
-                let wall: Vec3 = faces.iter().map(|&face| velocity_at(domain, face)).sum();
                 // f_a(x, t+1) = f*_-a(x, t) + 2 w_a ρ (c_a·u_w)/c_s²
-                let gain = 6.0 * weight(a) * along(a, &wall);
-                if gain == 0.0 {
-                    return back;
-                }
-                T::from_f64(back.to_f64() + gain * (1.0 + near.excess))
+                T::from_f64(back.to_f64() + wall_gain(domain, faces, a) * (1.0 + near.excess))
             }
             Rule::AntiBounceBack { face } => {
                 let rho_w = density_at(domain, *face);
@@ -87,6 +94,12 @@ impl Rule {
             }
         }
     }
+}
+
+/// `2 w_a (c_a·u_w)/c_s²`, with the sum of the velocities at these faces.
+fn wall_gain(domain: &Domain, faces: &[Side], a: usize) -> f64 {
+    let wall: Vec3 = faces.iter().map(|&face| velocity_at(domain, face)).sum();
+    6.0 * weight(a) * along(a, &wall)
 }
 
 /// The rule of the links of direction `a` that come from outside along the axes `crossed`: a wall or an inlet comes

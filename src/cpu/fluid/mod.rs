@@ -10,7 +10,7 @@ use psmrt_reference::directions::{C, Q};
 use psmrt_reference::drive::{Drive, DriveError};
 use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
-use psmrt_reference::solids::{Load, Solid};
+use psmrt_reference::solids::{Grip, Load, Solid};
 use pulp::Arch;
 use rayon::prelude::*;
 
@@ -19,6 +19,7 @@ use crate::cpu::coverage::Coverage;
 use crate::cpu::faces::Entering;
 use crate::cpu::fields::{Adding, Fields, Seen};
 use crate::cpu::grid::Grid;
+use crate::cpu::grips::received_by;
 use crate::cpu::pass::Pass;
 use crate::cpu::received::{Received, Receiving};
 use crate::lanes::Real;
@@ -34,6 +35,8 @@ pub struct Fluid<T: Real> {
     arch: Arch,
     grid: Grid<T>,
     entering: Entering<T>,
+    /// Whether what enters each run next is in its place already.
+    is_put: Vec<bool>,
     /// Cells in a run.
     run: usize,
     coverage: Option<Coverage<T>>,
@@ -41,6 +44,8 @@ pub struct Fluid<T: Real> {
     kept: Vec<Option<Fields<T>>>,
     scratch: Mutex<Vec<Scratch<T>>>,
     loads: Vec<Load>,
+    /// How all solids hold the fluid before the next collision, if that has been asked and none is elsewhere since.
+    held: Option<Vec<Grip>>,
     /// `Σ B_s` of the last step, if the loads were worked out in it and no solid has moved since.
     displaced: Option<Vec<f64>>,
 }
@@ -103,9 +108,11 @@ impl<T: Real> Fluid<T> {
             grid,
             run,
             kept: vec![None; domain.cell_count().div_ceil(run)],
+            is_put: vec![false; domain.cell_count().div_ceil(run)],
             coverage,
             scratch: Mutex::default(),
             loads: vec![Load::default(); phase.map_or(0, |phase| phase.solids.len())],
+            held: None,
             displaced: None,
             setup,
         }
@@ -122,7 +129,7 @@ impl<T: Real> Fluid<T> {
             let first = run * self.run;
             let mut fields = Fields::new(self.run);
             if let Some(coverage) = self.coverage.as_ref().filter(|_| with_solids) {
-                fields.add((coverage, &solids), run, first);
+                fields.add((coverage, &solids), run, first, true);
             }
             let motion = fields.motion();
             for cell in first..cells.min(first + self.run) {
@@ -160,7 +167,10 @@ impl<T: Real> Fluid<T> {
 
     /// One step.
     fn step(&mut self, with_loads: bool) {
-        let Fluid { setup, rules, arch, grid, entering, run: cells, kept, scratch, .. } = self;
+        let held = self.held.take();
+        let is_seen = with_loads && held.is_none();
+        let Fluid { setup, rules, arch, grid, entering, is_put, run: cells, kept, scratch, .. } =
+            self;
         let (domain, coverage) = (&setup.domain, self.coverage.as_ref());
         let solids = setup.solid_phase.as_ref().map_or(&[][..], |phase| &phase.solids);
         let rows = *cells / domain.cells()[0];
@@ -182,18 +192,19 @@ impl<T: Real> Fluid<T> {
                     of: (coverage, solids),
                     run,
                     first,
+                    with_motion: true,
                 });
             } else if kept.is_none() {
                 let mut fields = Fields::new(*cells);
-                fields.add((coverage, solids), run, first);
+                fields.add((coverage, solids), run, first, true);
                 fields.find_filled(values[0].len());
                 *kept = Some(fields);
             }
             let fields = kept.as_ref().unwrap_or(&spare.fields);
-            let seen = with_loads.then_some(&mut spare.seen);
+            let seen = is_seen.then_some(&mut spare.seen);
             arch.dispatch(Pass { rules, run: values, solids: Some((fields, seen)) });
             fields.correct_meetings(rules, values);
-            let received = if with_loads {
+            let received = if is_seen {
                 let (seen, gain) = (&spare.seen, rules.gain());
                 arch.dispatch(Receiving { fields, solids, seen, gain })
             } else {
@@ -207,7 +218,9 @@ impl<T: Real> Fluid<T> {
         };
         type OfRun<'a, T> = (([&'a mut [T]; Q], Vec<&'a mut [T]>), &'a mut Option<Fields<T>>);
         let pass = |(run, ((mut values, mut next), kept)): (usize, OfRun<'_, T>)| {
-            now.put(run * rows, &mut values);
+            if !is_put[run] {
+                now.put(run * rows, &mut values);
+            }
             let received = collide(run, &mut values, kept);
             now.take(domain, run * rows, &values, &mut next);
             received
@@ -218,13 +231,17 @@ impl<T: Real> Fluid<T> {
         } else {
             runs.into_par_iter().zip(next).zip(kept.par_iter_mut()).enumerate().map(pass).collect()
         };
+        is_put.fill(false);
         grid.passed();
         entering.fill(domain, grid);
         if let Some(coverage) = &mut self.coverage {
             coverage.has_changed.fill(false);
         }
         if with_loads {
-            let (loads, displaced) = added_up(&received, solids.len());
+            let (loads, displaced) = match held {
+                Some(grips) => grips.iter().zip(solids).map(received_by).unzip(),
+                None => added_up(&received, solids.len()),
+            };
             self.loads = loads;
             self.displaced = Some(displaced);
         }
@@ -255,6 +272,9 @@ impl<T: Real> Fluid<T> {
     pub fn place_solids(&mut self, solids: Vec<Solid>) {
         if let (Some(phase), Some(coverage)) = (&mut self.setup.solid_phase, &mut self.coverage) {
             coverage.update(&self.setup.domain, &phase.solids, &solids, phase.coverage);
+            if phase.solids.iter().zip(&solids).any(|(then, now)| then.centre != now.centre) {
+                self.held = None;
+            }
             phase.solids = solids;
             self.displaced = None;
         }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::{Fluid, added_up, given_back, taken};
 use crate::cpu::fields::{Fields, Seen};
-use crate::cpu::observe::{Sums, sum};
+use crate::cpu::observe::{Judging, Sums, sum};
 use crate::cpu::pass::Pass;
 use crate::cpu::received::{Received, Receiving};
 use crate::lanes::Real;
@@ -53,7 +53,7 @@ impl<T: Real> Fluid<T> {
             let mut values = slices(&mut copies);
             self.entering.now().put(run * rows, &mut values);
             let mut spare = taken(&self.scratch, self.run);
-            spare.fields.add((coverage, self.solids()), run, first);
+            spare.fields.add((coverage, self.solids()), run, first, true);
             let solids = Some((&spare.fields, Some(&mut spare.seen)));
             self.arch.dispatch(Pass { rules: &self.rules, run: &mut values, solids });
             let received = self.arch.dispatch(Receiving {
@@ -97,33 +97,41 @@ impl<T: Real> Fluid<T> {
     }
 
     /// What `guard` wants to know of all cells.
-    pub fn findings(&self, guard: &Guard) -> Findings {
+    pub fn findings(&mut self, guard: &Guard) -> Findings {
         // Cells that come near the limit are looked at again by the guard, in all digits.
         let limit = self.setup.guard.max_speed * 0.999;
-        let parts = self.look_at_runs(|first, seen| {
-            let count = self.run.min(self.setup.domain.cell_count() - first);
-            let (mut fastest, mut broken) = (0.0_f64, None);
-            for cell in 0..count {
-                let [excess, jx, jy, jz, _] = seen.of.each_ref().map(|of| of[cell].to_f64());
-                let rho = 1.0 + excess;
-                let square = (jx * jx + jy * jy + jz * jz) / (rho * rho);
-                fastest = fastest.max(square);
-                if !(rho > 0.0 && square <= limit * limit) {
-                    let failure: Option<Failure> = guard.failure(&self.populations(first + cell));
-                    if let Some(failure) = failure {
-                        broken = Some((first + cell, failure));
-                        break;
-                    }
-                }
-            }
-            (sum(&seen.of[0][..count]), fastest, broken)
-        });
         let n = self.setup.domain.cell_count() as f64;
+        let Fluid { setup, arch, grid, entering, is_put, run: cells, scratch, .. } = &mut *self;
+        let (rows, now) = (*cells / setup.domain.cells()[0], entering.now());
+        let look = |(run, (mut values, is_put)): (usize, ([&mut [T]; Q], &mut bool))| {
+            // As the next step would do, to the same end.
+            if !std::mem::replace(is_put, true) {
+                now.put(run * rows, &mut values);
+            }
+            let mut spare = taken(scratch, *cells);
+            let (count, seen) = (values[0].len(), &mut spare.seen);
+            arch.dispatch(Sums { run: &values, seen });
+            let (fastest, is_fit) = arch.dispatch(Judging { seen, count, limit });
+            let found = (sum(&seen.of[0][..count]), fastest, is_fit);
+            given_back(scratch, spare);
+            found
+        };
+        let runs = grid.runs(*cells).into_par_iter();
+        let parts: Vec<(f64, f64, bool)> = runs.zip(is_put).enumerate().map(look).collect();
+        let suspects = parts.iter().enumerate().filter(|(_, (.., is_fit))| !is_fit);
         Findings {
             mean_density: 1.0 + parts.iter().map(|part| part.0).sum::<f64>() / n,
             max_speed: parts.iter().map(|part| part.1).fold(0.0, f64::max).sqrt(),
-            broken: parts.into_iter().find_map(|part| part.2),
+            broken: suspects.filter_map(|(run, _)| self.broken_in(run, guard)).next(),
         }
+    }
+
+    /// The first cell of a run that the guard finds broken.
+    fn broken_in(&self, run: usize, guard: &Guard) -> Option<(usize, Failure)> {
+        let first = run * self.run;
+        let end = self.setup.domain.cell_count().min(first + self.run);
+        let broken = |cell: usize| Some((cell, guard.failure(&self.populations(cell))?));
+        (first..end).find_map(broken)
     }
 
     /// Total solid fraction of cells.
@@ -137,7 +145,7 @@ impl<T: Real> Fluid<T> {
             let first = run * self.run;
             if present != Some(run) {
                 fields.clear();
-                fields.add((coverage, self.solids()), run, first);
+                fields.add((coverage, self.solids()), run, first, false);
                 present = Some(run);
             }
             *fraction = fields.epsilon[cell - first].to_f64().min(1.0);

@@ -33,6 +33,8 @@ impl<T: Real> Fluid<T> {
             from.read_exact(bytemuck::cast_slice_mut(values))?;
         }
         self.entering.forget();
+        self.is_put.fill(false);
+        self.held = None;
         for mean in self.entering.slow_means_mut() {
             let mut bytes = [0; 8];
             from.read_exact(&mut bytes)?;

@@ -111,7 +111,7 @@ impl FluidEngine for RoundedEngine {
         self.inner.means()
     }
 
-    fn findings(&self, guard: &Guard) -> Result<Findings, DeviceError> {
+    fn findings(&mut self, guard: &Guard) -> Result<Findings, DeviceError> {
         self.inner.findings(guard)
     }
 
