@@ -38,6 +38,7 @@ mod cli_resume_refused;
 mod cli_run;
 mod cli_sweep;
 mod cli_viscosity;
+mod closed_columns;
 mod conformance_files;
 mod conformance_oracle;
 mod cpu_engine;

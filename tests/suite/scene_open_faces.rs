@@ -12,12 +12,12 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::CS2;
 
 /// The warning that says `part`, if there is one.
-fn warned(scene: &Scene, part: &str) -> Option<Warning> {
+pub(super) fn warned(scene: &Scene, part: &str) -> Option<Warning> {
     warnings(scene).into_iter().find(|warning| warning.reason.contains(part))
 }
 
 /// The number that stands before `unit` after `words`.
-fn said(reason: &str, words: &str, unit: &str) -> f64 {
+pub(super) fn said(reason: &str, words: &str, unit: &str) -> f64 {
     let rest = &reason[reason.find(words).unwrap_or_else(|| panic!("{words:?} in: {reason}"))..];
     let number = rest[words.len()..].split(unit).next().unwrap_or_default().trim();
     number.parse().unwrap_or_else(|_| panic!("a number after {words:?} in: {reason}"))

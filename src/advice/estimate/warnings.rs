@@ -2,6 +2,7 @@
 //! `psmrt resume` before they start.
 
 pub(crate) mod accuracy;
+mod closed;
 mod contacts;
 mod density;
 mod ends;
@@ -27,6 +28,7 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     faces::warnings,
     ends::warnings,
     gravity::warnings,
+    closed::warnings,
     density::warnings,
     contacts::warnings,
     prescribed::warnings,
@@ -40,5 +42,6 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let strongest = scene.at_its_strongest();
     let all = TOPICS.iter().flat_map(|topic| topic(&strongest));
-    start::warnings(scene).into_iter().chain(all).collect()
+    let at_start = start::warnings(scene).into_iter().chain(closed::swings(scene));
+    at_start.chain(all).collect()
 }

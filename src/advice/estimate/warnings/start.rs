@@ -64,7 +64,9 @@ fn start(scene: &Scene, axis: usize, side: usize, velocity: &Vec3) -> Option<War
         );
         return (left >= SMALL).then(|| warning(reason, remedy + ", or let the run last longer"));
     }
-    let left = decay(scene, axis)?.powf(scene.stop.steps as f64);
+    // A quarter of a wave long.
+    let k = PI / (2.0 * scene.setup.domain.cells()[axis] as f64);
+    let left = decay(scene, axis, k)?.powf(scene.stop.steps as f64);
     if left < SMALL {
         return None;
     }
@@ -103,9 +105,9 @@ fn left_before_open_face(memory: f64, cells: f64, steps: f64) -> f64 {
     (both * part.norm() * (0.5 * z.re * steps * CS2.sqrt() / cells).exp()).min(1.0)
 }
 
-/// What a step leaves of the slowest standing wave between an inlet and a pressure face along `axis`, a
-/// quarter of a wave long. `None` if friction lets nothing swing.
-fn decay(scene: &Scene, axis: usize) -> Option<f64> {
+/// What a step leaves of a standing wave along `axis` of the wave number `k`, in which free grains swing along with the
+/// water. `None` if friction lets nothing swing.
+pub(super) fn decay(scene: &Scene, axis: usize, k: f64) -> Option<f64> {
     let (domain, collision) = (&scene.setup.domain, &scene.setup.collision);
     let nu = viscosity(collision.tau());
     let s_e = match collision {
@@ -114,7 +116,6 @@ fn decay(scene: &Scene, axis: usize) -> Option<f64> {
     };
     // ζ = 2/9 (1/s_e - 1/2)                            (d'Humières et al. 2002, with c_s² = 1/3)
     let bulk = 2.0 / 9.0 * (1.0 / s_e - 0.5);
-    let k = PI / (2.0 * domain.cells()[axis] as f64);
     let omega = CS2.sqrt() * k;
     // d²p/dt² + 2 β dp/dt + ω² p = 0,  2 β = (4/3 ν + ζ) k² + friction
     let mut twice_beta = (4.0 / 3.0 * nu + bulk) * k * k;
@@ -127,7 +128,13 @@ fn decay(scene: &Scene, axis: usize) -> Option<f64> {
         twice_beta += walls * layer.min(6.0 * nu / (width * width));
     }
     let porosity = 1.0 - solid_fraction(scene);
-    for (_, radius, share) in spheres(scene) {
+    let mut stays = vec![true; spheres(scene).len()];
+    if let Some(part) = &scene.free {
+        let free = part.solids.iter().zip(&part.grains).filter(|(_, grain)| !grain.held);
+        free.for_each(|(&solid, _)| stays[solid] = false);
+    }
+    let staying = spheres(scene).into_iter().zip(stays).filter(|(_, stays)| *stays);
+    for ((_, radius, share), _) in staying {
         // Stokes drag, in a bed larger by ε^-3.7            (Wen & Yu 1966)
         let drag = 6.0 * PI * nu * radius * porosity.powf(-3.7);
         twice_beta += share * drag / domain.cell_count() as f64;
