@@ -1,10 +1,11 @@
 """Draws the settling cloud of the paper's section 7 from the grains that a run has recorded (NumPy; ffmpeg for a film):
 
-    python3 docs/settling_film.py RUN picture.png STEP
+    python3 docs/settling_film.py RUN picture.png STEP ...
     python3 docs/settling_film.py RUN film.webm
 
 Parallel projection into the closed box, the near walls left out; grains are coloured by how fast they fall. A film shows all
-recorded moments at 25 a second, on a white ground.
+recorded moments at 25 a second, on a white ground; several steps stand in one picture, three in a row (a multiple of
+three, if there are more).
 """
 
 import os
@@ -20,6 +21,7 @@ from spheres import EDGE, FALL, PAPER, View, arrays, averaged, colour, edge_of_c
 
 FASTEST = 4e-3  # m/s, twice Stokes' velocity: the end of the colour scale
 INTO = [-0.62, 0.74, -0.26]
+IN_A_ROW = 3
 SAMPLES = 2  # per pixel and axis, against jagged edges
 
 
@@ -56,7 +58,7 @@ def film(run, out, pixels_per_cell=3.0):
         frames = pool.map(frame, [run] * len(paths), paths, [pixels_per_cell] * len(paths))
         first = next(frames)
         rows, columns, _ = first.shape
-        codec = "-c:v libvpx-vp9 -pix_fmt yuv420p -crf 36 -b:v 0 -row-mt 1".split()
+        codec = "-c:v libvpx-vp9 -pix_fmt yuv420p -crf 44 -b:v 0 -row-mt 1".split()
         raw = f"-f rawvideo -pix_fmt rgb24 -s {columns}x{rows} -r 25 -i -".split()
         command = ["ffmpeg", "-y", "-loglevel", "error", *raw, *codec, str(out)]
         with subprocess.Popen(command, stdin=subprocess.PIPE) as ffmpeg:
@@ -70,7 +72,12 @@ def film(run, out, pixels_per_cell=3.0):
 
 if __name__ == "__main__":
     run, out = Path(sys.argv[1]), Path(sys.argv[2])
-    if len(sys.argv) > 3:
-        png(out, frame(run, run / "grains" / f"grains_{int(sys.argv[3]):012}.vtp", 4.0))
+    steps = [int(step) for step in sys.argv[3:]]
+    if steps:
+        pixels_per_cell = 4.0 if len(steps) == 1 else 1.4
+        paths = [run / "grains" / f"grains_{step:012}.vtp" for step in steps]
+        frames = [frame(run, path, pixels_per_cell) for path in paths]
+        rows = [np.hstack(frames[i : i + IN_A_ROW]) for i in range(0, len(frames), IN_A_ROW)]
+        png(out, np.vstack(rows))
     else:
         film(run, out)

@@ -69,7 +69,8 @@ pub use figure::{Axis, Figure, Panel};
 pub use fit::PowerLaw;
 pub use map::{Map, render_map};
 pub use page::{
-    Appendix, DataTable, Found, Headline, Link, Page, Picture, Section, Verdict, render_page,
+    Agreement, Appendix, DataTable, Found, Headline, Link, Page, Picture, Section, Verdict,
+    render_page,
 };
 pub use render::render_svg;
 pub use scale::Scale;

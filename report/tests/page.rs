@@ -1,8 +1,8 @@
 //! The page: what a reader must find on it, on a screen, a phone and paper.
 
 use psmrt_report::{
-    Axis, DataTable, Figure, Found, Headline, Link, Page, Picture, Section, Series, Verdict,
-    render_page,
+    Agreement, Axis, DataTable, Figure, Found, Headline, Link, Page, Picture, Section, Series,
+    Verdict, render_page,
 };
 
 fn link(text: &str, href: &str) -> Link {
@@ -32,6 +32,8 @@ fn page() -> Page {
             name: "duct".to_owned(),
             title: "Flow in a duct".to_owned(),
             about: vec!["A <flow>.".to_owned(), "By a force.".to_owned()],
+            picture: None,
+            film: None,
             verdicts: vec![verdict(true)],
             figures: vec![figure.clone(), figure],
             tables: vec![DataTable {
@@ -87,7 +89,7 @@ fn a_page_opens_with_the_numbers_that_matter_and_a_picture() {
         found: "0.0350 (16 cells)".to_owned(),
         error: "-0.05 %".to_owned(),
         uncertainty: "0.06 %".to_owned(),
-        is_within: true,
+        is_within: Some(true),
         case: "duct".to_owned(),
     }];
     page.picture = Some(Picture { png_base64: "AAAA".to_owned(), caption: "grains".to_owned() });
@@ -143,10 +145,12 @@ fn the_environment_is_a_table_whose_names_are_headings() {
 #[test]
 fn a_claim_that_fails_is_told_by_words_and_not_by_colour_alone() {
     let mut page = page();
-    assert!(page.holds() && render_page(&page).unwrap().contains("1 of 1 claims hold ("));
+    assert!(page.holds() && render_page(&page).unwrap().contains("1 of 1 claims hold: 1 are"));
     page.sections[0].verdicts.push(verdict(false));
     let html = render_page(&page).unwrap();
-    assert!(!page.holds() && html.contains("✗ FAILS") && html.contains("1 of 2 claims hold ("));
+    assert!(
+        !page.holds() && html.contains("✗ FAILS") && html.contains("1 of 2 claims hold: 2 are")
+    );
     page.sections[0].verdicts.clear();
     assert!(!page.holds(), "a case without a claim shows nothing");
 }
@@ -185,4 +189,37 @@ fn folded_tables_are_printed_and_figures_keep_their_size_on_small_screens() {
         html.contains("<td class=\"number\">4.2e-2</td>") && html.contains("<td>two words</td>")
     );
     assert!(html.contains("<details><summary>What was measured</summary>"));
+}
+
+#[test]
+fn a_case_shows_its_picture_before_its_figures_and_its_film_beside_the_page() {
+    let mut page = page();
+    let section = &mut page.sections[0];
+    let caption = "A fall".to_owned();
+    section.picture = Some(Picture { png_base64: "iVBORw0KGgo=".to_owned(), caption });
+    section.film = Some(link("The film", "data/duct/film.webm"));
+    let html = render_page(&page).unwrap();
+    let picture = html.find("data:image/png;base64,iVBORw0KGgo=").expect("the picture");
+    assert!(picture < html.find("<figure><svg").expect("a figure"), "the picture comes first");
+    // Nothing of it is loaded before a reader asks for it.
+    assert!(html.contains("<video controls preload=\"none\" src=\"data/duct/film.webm\">"));
+}
+
+#[test]
+fn a_page_says_how_far_off_it_is_by_quantity_between_the_contents_and_the_cases() {
+    let mut page = page();
+    let row = ["drag", "3", "+1.0 %", "2.0 %"].map(str::to_owned).to_vec();
+    page.agreement = Some(Agreement {
+        about: vec!["Over all cases.".to_owned()],
+        table: DataTable { caption: String::new(), columns: Vec::new(), rows: vec![row] },
+        figures: page.sections[0].figures.clone(),
+    });
+    let html = render_page(&page).unwrap();
+    let place = html.find("<section id=\"agreement\">").expect("the section");
+    let case = html.find("<section id=\"duct\">").expect("the case");
+    assert!(html.find("<nav>").unwrap() < place && place < case);
+    let own = &html[place..case];
+    assert!(own.contains("+1.0 %") && own.contains("href=\"agreement.csv\""), "{own}");
+    assert_eq!(own.matches("<svg").count(), 2, "the second figure is folded, and there");
+    assert!(own.find("<svg").unwrap() < own.find("<details>").unwrap());
 }

@@ -13,7 +13,7 @@ use crate::output::csv;
 use crate::output::records::profile_rows;
 use crate::output::{atomic, plot};
 use crate::scene::Scene;
-use crate::scene::check::records::middle;
+use crate::scene::check::record_kinds::middle;
 use crate::scene::columns::Column;
 use crate::scene::names::COMPARISON;
 

@@ -7,6 +7,7 @@ use psmrt_reference::guard::{Findings, Guard};
 use psmrt_reference::lattice::Populations;
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Grip, Load, Solid};
+use rayon::prelude::*;
 
 use super::{Block, BoxMeans, CellState, DeviceError, EngineName, FluidEngine, Start, StartError};
 use crate::cpu::Fluid;
@@ -113,7 +114,7 @@ impl<T: Real> FluidEngine for CpuEngine<T> {
         let state = |(&cell, solid_fraction): (&usize, f64)| {
             CellState::new(&self.fluid.populations(cell), &g, solid_fraction)
         };
-        Ok(numbers.iter().zip(fractions).map(state).collect())
+        Ok(numbers.par_iter().zip(fractions).map(state).collect())
     }
 
     fn populations(&self, block: Block) -> Result<Vec<Populations>, DeviceError> {

@@ -137,6 +137,41 @@ fn grips_agree_with_the_oracle_in_any_vectors_and_asking_for_them_changes_nothin
 }
 
 #[test]
+fn grips_that_are_known_serve_the_velocities_of_the_collision_and_no_other_places() {
+    for (name, mut setup) in scenes() {
+        let Some(phase) = &mut setup.solid_phase else { continue };
+        phase.operator = SolidOperator::FullBounceBack;
+        let solids = phase.solids.clone();
+        let moved = |by: f64, faster: f64| -> Vec<Solid> {
+            let mut solids = solids.clone();
+            for solid in &mut solids {
+                solid.centre.x += by;
+                solid.velocity *= faster;
+            }
+            solids
+        };
+        for (what, by, faster) in [("elsewhere", 0.3, 1.0), ("faster", 0.0, 1.5)] {
+            let mut asked = CpuEngine::<f64>::start(setup.clone(), &from(&state));
+            let mut left_alone = CpuEngine::<f64>::start(setup.clone(), &from(&state));
+            let wanted: Vec<usize> = (0..solids.len()).collect();
+            asked.grips(&wanted).unwrap();
+            for engine in [&mut asked, &mut left_alone] {
+                engine.place_solids(moved(by, faster)).unwrap();
+                engine.advance(1, true).unwrap();
+            }
+            assert!(saved(&asked) == saved(&left_alone), "{name}, {what}: the fluid");
+            let loads = asked.loads().unwrap().into_iter().zip(left_alone.loads().unwrap());
+            for (number, (known, added_up)) in loads.enumerate() {
+                // Elsewhere the old grips say nothing: the very same sums. Faster: round-off, as above.
+                let off = (known.force - added_up.force).norm();
+                let most = if by == 0.0 { 1e-10 } else { 0.0 };
+                assert!(off <= most, "{name}, {what}, solid {number}: {known:?}, {added_up:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn double_precision_agrees_with_the_oracle_to_round_off_where_runs_of_cells_meet() {
     let mut budget = Budget::oracle(799_200);
     for (name, setup) in scenes() {

@@ -31,6 +31,7 @@
 //! Fröhlich, J. Comput. Phys. 231, 3663 (2012); Tschisgale, Kempe & Fröhlich, J. Comput. Phys. 339, 432 (2017).
 
 use nalgebra::{Matrix3, Matrix6, Vector6};
+use rayon::prelude::*;
 
 use crate::domain::Domain;
 use crate::grains::contact::Motion;
@@ -90,7 +91,7 @@ impl FreeGrains {
         let grains = self.system().grains();
         // E: what acts besides contacts, but for the load.
         let known = self.outside_loads(&vec![Load::default(); grains.len()]);
-        let each = grains.iter().zip(known).zip(self.last_steps()).zip(grips);
+        let each = grains.par_iter().zip(known).zip(self.last_steps()).zip(grips);
         each.map(|(((grain, mut known), last), grip)| {
             let contacts = last.expected_contacts();
             known.force += contacts.force;

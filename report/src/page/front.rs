@@ -20,8 +20,9 @@ pub struct Headline {
     pub error: String,
     /// Numerical uncertainty, of the grid.
     pub uncertainty: String,
-    /// Whether the error lies within both uncertainties, the reference's and the grid's.
-    pub is_within: bool,
+    /// Whether the error lies within both uncertainties, the reference's and the grid's; `None` if the grid's is too large to
+    /// say.
+    pub is_within: Option<bool>,
     /// Place of the case on the page.
     pub case: String,
 }
@@ -45,27 +46,32 @@ pub(super) fn front(page: &Page) -> Markup {
         }
         div class="front" {
             @if !page.headlines.is_empty() { (headlines(&page.headlines)) }
-            @if let Some(picture) = &page.picture {
-                figure class="picture" {
-                    img alt=(picture.caption) src=(format!("data:image/png;base64,{}", picture.png_base64));
-                    figcaption { (picture.caption) }
-                }
-            }
+            @if let Some(picture) = &page.picture { (self::picture(picture)) }
         }
         details { summary { "How to read this page" } @for paragraph in &page.about { p { (paragraph) } } }
     }
 }
 
-/// How many claims hold, each engine's counted.
+/// A picture above what it shows.
+pub(super) fn picture(picture: &Picture) -> Markup {
+    html! {
+        figure class="picture" {
+            img alt=(picture.caption) src=(format!("data:image/png;base64,{}", picture.png_base64));
+            figcaption { (picture.caption) }
+        }
+    }
+}
+
+/// How many claims hold; and how many of them are of runs that engines made for the page.
 fn summary(page: &Page) -> String {
     let verdicts = || page.sections.iter().flat_map(|section| &section.verdicts);
-    let found = || verdicts().flat_map(|verdict| &verdict.found);
-    let hold = found().filter(|found| found.holds).count();
-    let claims = verdicts().filter(|verdict| Verdict::holds(verdict)).count();
+    let hold = verdicts().filter(|verdict| Verdict::holds(verdict)).count();
+    let is_run = |verdict: &&Verdict| verdict.found.iter().any(|found| !found.by.is_empty());
+    let runs = verdicts().filter(is_run).count();
     format!(
-        "{claims} of {} claims hold ({hold} of {} with each engine's counted).",
+        "{hold} of {} claims hold: {runs} are about runs made for this page, on each engine, the others about longer runs \
+         whose results are kept.",
         verdicts().count(),
-        found().count()
     )
 }
 
@@ -82,11 +88,13 @@ fn headlines(headlines: &[Headline]) -> Markup {
                             a href=(format!("#{}", one.case)) { (one.quantity) }
                             " " span class="source" { "Reference: " (one.source) "." }
                         }
-                        td class="number" { (one.reference) }
-                        td class="number" { (one.found) }
-                        td class="number" { (one.error) }
-                        td class="number" { (one.uncertainty) }
-                        @if one.is_within { td class="holds" { "✓ yes" } } @else { td { "no" } }
+                        td class="number" data-name="reference" { (one.reference) }
+                        td class="number" data-name="psmrt" { (one.found) }
+                        td class="number" data-name="error" { (one.error) }
+                        td class="number" data-name="grid uncertainty" { (one.uncertainty) }
+                        td data-name="error within both" class=[(one.is_within == Some(true)).then_some("holds")] {
+                            (match one.is_within { Some(true) => "✓ yes", Some(false) => "no", None => "grid too coarse to say" })
+                        }
                     }
                 }
             }

@@ -1,5 +1,6 @@
 //! The validation report: the numbers that matter, figures, claims and tables as one self-contained HTML page.
 
+mod agreement;
 mod claims;
 mod front;
 mod section;
@@ -10,6 +11,7 @@ use pulldown_cmark::{Event, Options, Parser, html::push_html};
 use crate::error::PlotError;
 use crate::figure::Figure;
 
+pub use agreement::Agreement;
 pub use claims::{Found, Verdict};
 pub use front::{Headline, Picture};
 
@@ -49,6 +51,10 @@ pub struct Section {
     pub title: String,
     /// What it shows and what it is held to, a paragraph each. The first stands above the figure, the others are folded.
     pub about: Vec<String>,
+    /// A picture of what is computed, before the figures.
+    pub picture: Option<Picture>,
+    /// A film of it, beside the page.
+    pub film: Option<Link>,
     /// Its verdicts.
     pub verdicts: Vec<Verdict>,
     /// Its figures, the most telling one first; each is followed by its notes. The others are folded.
@@ -85,6 +91,8 @@ pub struct Page {
     pub headlines: Vec<Headline>,
     /// One picture of what is computed.
     pub picture: Option<Picture>,
+    /// How far off numbers are, quantity by quantity.
+    pub agreement: Option<Agreement>,
     /// How to read the page, a paragraph each.
     pub about: Vec<String>,
     /// The cases.
@@ -114,6 +122,7 @@ impl Section {
 /// The page as HTML, with its figures in it. Errors if a figure cannot be drawn.
 pub fn render_page(page: &Page) -> Result<String, PlotError> {
     let sections = page.sections.iter().map(section::section).collect::<Result<Vec<_>, _>>()?;
+    let agreement = page.agreement.as_ref().map(agreement::agreement).transpose()?;
     let markup = html! {
         (DOCTYPE)
         html lang="en" {
@@ -126,6 +135,7 @@ pub fn render_page(page: &Page) -> Result<String, PlotError> {
             body {
                 (front::front(page))
                 (contents(page))
+                @if let Some(agreement) = agreement { (agreement) }
                 @for section in sections { (section) }
                 (claims::all(page))
                 @for appendix in &page.appendices { (self::appendix(appendix)) }
@@ -157,6 +167,7 @@ pub fn render_page(page: &Page) -> Result<String, PlotError> {
 fn contents(page: &Page) -> Markup {
     html! {
         nav { "On this page: "
+            @if page.agreement.is_some() { a href="#agreement" { (agreement::TITLE) } "; " }
             @for section in &page.sections { a href=(format!("#{}", section.name)) { (section.title) } "; " }
             a href="#verdicts" { "all claims" } "; "
             @for appendix in &page.appendices {

@@ -3,7 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::claims::{Verdict, of_section};
-use super::{Link, Section, rows};
+use super::{Link, Section, front, rows};
 use crate::error::PlotError;
 use crate::render::render_svg;
 
@@ -22,6 +22,12 @@ pub(super) fn section(section: &Section) -> Result<Markup, PlotError> {
         section id=(section.name) {
             h2 { (section.title) }
             @for paragraph in lead { p { (paragraph) } }
+            @if let Some(picture) = &section.picture { (front::picture(picture)) }
+            @if let Some(film) = &section.film {
+                details { summary { (film.text) }
+                    video controls preload="none" src=(film.href) { a href=(film.href) { (film.href) } }
+                }
+            }
             @for figure in first { figure { (PreEscaped(figure)) } }
             @if !others.is_empty() {
                 details { summary { (more) }

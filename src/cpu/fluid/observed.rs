@@ -137,20 +137,16 @@ impl<T: Real> Fluid<T> {
     /// Total solid fraction of cells.
     pub fn solid_fractions(&self, cells: &[usize]) -> Vec<f64> {
         let Some(coverage) = &self.coverage else { return vec![0.0; cells.len()] };
-        let mut found = vec![0.0; cells.len()];
-        let mut fields = Fields::new(self.run);
-        let mut present = None;
-        for (fraction, &cell) in found.iter_mut().zip(cells) {
-            let run = cell / self.run;
+        let in_run = |cells: &[usize]| {
+            let run = cells[0] / self.run;
             let first = run * self.run;
-            if present != Some(run) {
-                fields.clear();
-                fields.add((coverage, self.solids()), run, first, false);
-                present = Some(run);
-            }
-            *fraction = fields.epsilon[cell - first].to_f64().min(1.0);
-        }
-        found
+            let mut fields = Fields::new(self.run);
+            fields.add((coverage, self.solids()), run, first, false);
+            let fraction = |cell: &usize| fields.epsilon[cell - first].to_f64().min(1.0);
+            cells.iter().map(fraction).collect::<Vec<_>>()
+        };
+        let runs = cells.par_chunk_by(|a, b| a / self.run == b / self.run);
+        runs.flat_map_iter(in_run).collect()
     }
 }
 

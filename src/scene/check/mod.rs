@@ -28,6 +28,7 @@ mod mirrors;
 pub(crate) mod neighbours;
 pub(crate) mod numbers;
 pub mod permeability;
+pub mod record_kinds;
 pub mod records;
 mod signal_file;
 mod solid;

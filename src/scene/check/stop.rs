@@ -2,7 +2,8 @@
 
 use super::Trouble;
 use super::numbers::{count, steps};
-use super::records::{OutputInterval, Record, What};
+use super::record_kinds::What;
+use super::records::{OutputInterval, Record};
 use crate::scene::columns::{
     BOX_COLUMNS, CONTACT_MEAN_COLUMNS, Column, FORCE_COLUMNS, GRAIN_MEAN_COLUMNS,
     PERMEABILITY_COLUMNS,

@@ -7,7 +7,7 @@
 //! | [`speed`] | how fast the engines are |
 //! | [`stability`] | maps of where the method survives and where it is right |
 //! | [`tradeoff`] | speed for accuracy, measured |
-//! | [`front`] | the numbers that the report opens with |
+//! | [`numbers`] | the numbers that the report opens with, and how far off they are, quantity by quantity |
 //! | [`history`] | what the committed reports found |
 //! | [`command`] | the commands of `cargo validate` |
 //! | [`failure`] | how these fail |
@@ -18,8 +18,8 @@
 pub mod cases;
 pub mod command;
 pub mod failure;
-pub mod front;
 pub mod history;
+pub mod numbers;
 pub mod speed;
 pub mod stability;
 pub mod tradeoff;

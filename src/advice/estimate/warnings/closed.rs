@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use psmrt_reference::coupling::Gravity;
 use psmrt_reference::domain::{FACE_NAMES, Face};
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::lattice::{CS2, Vec3};
@@ -31,14 +32,15 @@ struct Column {
 
 /// The densities at the ends that differ too much.
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
-    let compressed = columns(scene).into_iter().filter(|column| column.compression > SLIGHT);
+    let force = hanging(scene) + scene.setup.body_force.unwrap_or_else(Vec3::zeros);
+    let compressed = columns(scene, force).into_iter().filter(|column| column.compression > SLIGHT);
     let told = compressed.map(|column| {
         let [low, high] = FACE_NAMES[column.axis];
         let shorter = (SLIGHT / column.compression).sqrt() * scene.units.si_dt;
         warning(
             format!(
                 "weight and body force press the water together: its density differs by {:.1} % between the faces {low} and \
-                 {high}, and so does the volume that a flow takes there",
+                 {high}, as long as the grains hang in it, and so does the volume that a flow takes there",
                 100.0 * column.compression
             ),
             format!(
@@ -57,7 +59,10 @@ pub(super) fn swings(scene: &Scene) -> Vec<Warning> {
     if let Initial::Run(_) = scene.initial {
         return Vec::new();
     }
-    let told = columns(scene).into_iter().filter_map(|column| {
+    // A balanced weight presses against nothing; gravity on the fluid too has a warning of its own.
+    let reduced = scene.free.as_ref().and_then(|part| part.settings.gravity);
+    let Some(Gravity::Reduced { .. }) = reduced else { return Vec::new() };
+    let told = columns(scene, hanging(scene)).into_iter().filter_map(|column| {
         // Both ends send a wave of velocity f t/ρ into the column, which meet half-way after L/(2 c_s).
         let swing = 0.5 * column.compression * CS2.sqrt();
         let left = decay(scene, column.axis, PI / column.length)?;
@@ -90,28 +95,27 @@ pub(super) fn swings(scene: &Scene) -> Vec<Warning> {
     told.collect()
 }
 
-/// The columns that a force presses against an end.
-fn columns(scene: &Scene) -> Vec<Column> {
+/// The weight of the free grains in the water per volume of the domain: as long as they hang in it, it carries them.
+fn hanging(scene: &Scene) -> Vec3 {
+    let Some(part) = &scene.free else { return Vec3::zeros() };
+    let Some(gravity) = part.settings.gravity else { return Vec3::zeros() };
+    let mass = |grain: &Grain| {
+        let fluid = part.settings.fluid_density * sphere_volume(grain.radius);
+        grain.mass - fluid
+    };
+    let volume = scene.setup.domain.cell_count() as f64;
+    free(part).map(mass).sum::<f64>() / volume * gravity.acceleration()
+}
+
+/// The columns that a force per volume presses against an end.
+fn columns(scene: &Scene, force: Vec3) -> Vec<Column> {
     let domain = &scene.setup.domain;
-    let cells = domain.cells().map(|n| n as f64);
-    let volume: f64 = cells.iter().product();
-    // Per volume; what weighs in the water is carried by it, as long as it does not lie on a floor.
-    let mut force = scene.setup.body_force.unwrap_or_else(Vec3::zeros);
-    if let Some(part) = &scene.free
-        && let Some(gravity) = part.settings.gravity
-    {
-        let mass = |grain: &Grain| {
-            let fluid = part.settings.fluid_density * sphere_volume(grain.radius);
-            grain.mass - fluid
-        };
-        force += free(part).map(mass).sum::<f64>() / volume * gravity.acceleration();
-    }
     let holds = |face: &Face| {
         matches!(face, Face::Wall { .. } | Face::FreeSlip | Face::VelocityInlet { .. })
     };
     let closed = (0..3).filter(|&axis| domain.faces().axis(axis).iter().all(holds));
     let column = |axis: usize| {
-        let length = cells[axis];
+        let length = domain.cells()[axis] as f64;
         Column { axis, length, compression: force[axis].abs() * length / CS2 }
     };
     closed.map(column).collect()

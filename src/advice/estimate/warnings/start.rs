@@ -123,9 +123,10 @@ pub(super) fn decay(scene: &Scene, axis: usize, k: f64) -> Option<f64> {
         let width = domain.cells()[across] as f64;
         let faces = domain.faces().axis(across);
         let walls = faces.iter().filter(|face| matches!(face, Face::Wall { .. })).count() as f64;
-        // Of a wall's boundary layer (Kirchhoff 1868), or of Poiseuille flow where that fills the channel.
+        // Of a wall's boundary layer (Kirchhoff 1868), or of Poiseuille flow where that fills the channel: the larger one is
+        // the right one on either side of the width, six layers, at which they are equal.
         let layer = (0.5 * nu * omega).sqrt() / width;
-        twice_beta += walls * layer.min(6.0 * nu / (width * width));
+        twice_beta += walls * layer.max(6.0 * nu / (width * width));
     }
     let porosity = 1.0 - solid_fraction(scene);
     let mut stays = vec![true; spheres(scene).len()];

@@ -58,6 +58,7 @@ pub use drift::{DRIFT_WORDS, Drift, drifts};
 pub use fluidization::bed::{
     FluidizedBed, RUNS as FLUIDIZED_BEDS, Records as BedRecords, rows_of as rows_of_bed,
 };
+pub use fluidization::onsets;
 pub use found::drawn;
 pub use oscillating::OscillatingSphere;
 pub use permeability::beds::{BedOfSpheres, RANDOM as PERMEABILITY_BED};
@@ -67,7 +68,7 @@ pub use sphere_drag::stream::Stream;
 pub use sphere_drag::study::{drag_by_grid, in_open_water};
 pub use steadiness::{Settled, steadiness};
 pub use study::Study;
-pub use wet_rebound::{WetRebound, wet_rebounds};
+pub use wet_rebound::{WetRebound, wet_rebounds, wet_restitutions};
 
 /// A case of the acceptance suite.
 pub struct Case {
@@ -128,6 +129,23 @@ pub const CASES: &[Case] = &[
     stability::CASE,
     cost::CASE,
 ];
+
+/// A picture and a film of a case.
+pub struct Media {
+    /// The case.
+    pub case: &'static str,
+    /// A PNG in its folder.
+    pub picture: &'static str,
+    /// What the picture shows.
+    pub caption: &'static str,
+    /// A film in its folder that browsers play.
+    pub film: &'static str,
+    /// What the film shows.
+    pub film_caption: &'static str,
+}
+
+/// All there are.
+pub const MEDIA: [Media; 1] = [cloud_settling::MEDIA];
 
 /// A claim about one number.
 #[derive(Clone, Debug, PartialEq)]

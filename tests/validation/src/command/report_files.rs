@@ -6,10 +6,12 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-use psmrt_report::{Figure, Link, write_svg};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use psmrt_report::{Figure, Link, Picture, write_svg};
 
 use super::report_request::ReportRequest;
-use crate::cases::{Case, CaseError};
+use crate::cases::{Case, CaseError, MEDIA};
 use crate::failure::Failure;
 use psmrt::command::write;
 use psmrt::output::atomic;
@@ -49,6 +51,24 @@ pub(super) fn scenes(case: &Case, request: &ReportRequest) -> Result<Vec<Link>, 
     let is_other = |name: &String| name.ends_with(".toml") && !case.scenes.contains(&name.as_str());
     let others: BTreeSet<String> = names.filter(is_other).collect();
     copies(case, case.scenes.iter().copied().chain(others.iter().map(String::as_str)), request)
+}
+
+/// The picture of a case, and a copy of its film, if it has them.
+pub(super) fn media(
+    case: &Case,
+    request: &ReportRequest,
+) -> Result<(Option<Picture>, Option<Link>), Failure> {
+    let Some(media) = MEDIA.iter().find(|media| media.case == case.name) else {
+        return Ok((None, None));
+    };
+    let png = fs::read(request.golden.join(case.name).join(media.picture));
+    let picture = Picture {
+        png_base64: STANDARD.encode(png.map_err(CaseError::from)?),
+        caption: media.caption.to_owned(),
+    };
+    let film = copies(case, [media.film], request)?.pop();
+    let film = film.map(|film| Link { text: media.film_caption.to_owned(), ..film });
+    Ok((Some(picture), film))
 }
 
 /// Writes the figures of a case.

@@ -16,7 +16,7 @@ use psmrt::exact::Comparison;
 use psmrt::kernel::Gpu;
 use psmrt::output::records::profile_rows;
 use psmrt::run::{End, RunError};
-use psmrt::scene::check::records::middle;
+use psmrt::scene::check::record_kinds::middle;
 use std::sync::Arc;
 
 /// Runs settings on the engines at hand.

@@ -40,7 +40,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             what: "mistakes that are named as planted".to_owned(),
             measured: right as f64,
             allowed: all.max(25.0)..=all.max(25.0),
-            why: "all of them, and at least 25",
+            why: "every mistake of the catalogue, which has at least 25",
         },
         Claim {
             what: "other mistakes that fit as well, at most".to_owned(),

@@ -16,17 +16,22 @@ pub const CASE: Case = Case {
         "The table has the absolute figures, in million cell updates per second, and in its last rows the bandwidth of a \
          loop that changes numbers in place, in GB/s, measured in the same moments. A cell update moves 152 bytes in \
          single precision (38 populations) and 304 in double.",
+        "The other figures: all engines on 64³ cells (engines.csv), the CPU engine from 16³ to 256³ cells (sizes.csv), and where a step of \
+         the paper's 12,000 settling grains goes.",
     ],
     scenes: &[],
     literature: &[],
     rows: "rivals.csv",
-    studies: &[],
+    studies: &["engines.csv", "sizes.csv", PROFILE],
     units: "updates, low and high in million cell updates per second, of the loop in place in GB/s; bytes of a number",
     full: "cargo validate speed and tests/validation/rivals/lbmpy_speed.py made these rows in turns; an hour",
     measure: |bench: &mut Bench| bench.literature(CASE.name, CASE.rows),
     judge,
     draw,
 };
+
+/// Where a step of the paper's scene goes.
+const PROFILE: &str = "../cloud_settling/paper_profile_cpu.csv";
 
 /// What both have been timed at.
 const WORKS: [&str; 3] = ["MRT", "PS-MRT; fixed bed of 0.6", "PS-MRT; fixed bed of 0.6; forces"];
@@ -81,7 +86,7 @@ fn judge(_: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
     Ok(claims)
 }
 
-fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
+fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let mut names: Vec<String> = Vec::new();
     for work in WORKS.iter().rev() {
         for threads in ["2", "1"] {
@@ -111,5 +116,68 @@ fn draw(_: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     Ok(vec![
         figure
             .note("128³ cells, AVX-512; absolute figures and the memory's bandwidth in the table"),
+        engines(&golden.table("engines.csv")?)?,
+        sizes(&golden.table("sizes.csv")?)?,
+        profile(&golden.table(PROFILE)?)?,
     ])
+}
+
+/// All engines, work by work.
+fn engines(table: &Table) -> Result<Figure, CaseError> {
+    let two = table.with(&[("threads", "2")])?;
+    let mut works = two.with(&[("engine", "cpu")])?.values("work")?;
+    works.reverse();
+    let names: Vec<&str> = works.iter().map(String::as_str).collect();
+    let mut figure = Figure::new(
+        "All engines, 64³ cells, 2 threads",
+        Axis::log("million cell updates per second"),
+        Axis::of_names(&names),
+    )
+    .size(900, 480);
+    for (engine, words) in [
+        ("cpu_single", "CPU engine, single precision"),
+        ("cpu", "CPU engine, double precision"),
+        ("reference", "the oracle"),
+    ] {
+        let own = two.with(&[("engine", engine)])?;
+        let each = works.iter().enumerate().map(|(place, work)| {
+            Ok((own.with(&[("work", work)])?.number("updates")?, place as f64 + 1.0))
+        });
+        figure = figure.with(Series::points(words, each.collect::<Result<_, CaseError>>()?));
+    }
+    Ok(figure)
+}
+
+/// The CPU engine against the size of a cube.
+fn sizes(table: &Table) -> Result<Figure, CaseError> {
+    let mut figure = Figure::new(
+        "The CPU engine by the size of a cube, 2 threads",
+        Axis::log("cells along an edge").ticks(&[16.0, 32.0, 64.0, 128.0, 256.0]),
+        Axis::linear("million cell updates per second").range(0.0, 320.0),
+    );
+    for (engine, _, words) in ENGINES {
+        for work in table.values("work")? {
+            let own = table.with(&[("engine", engine), ("work", &work)])?;
+            let label = format!("{work}, {words}");
+            figure = figure.with(Series::line_points(label, own.points("side", "updates")?));
+        }
+    }
+    Ok(figure.note("median of three rounds; a machine that was shared while they ran"))
+}
+
+/// Where the time of a step of the paper's settling scene goes.
+fn profile(table: &Table) -> Result<Figure, CaseError> {
+    let ways = table.values("coverage")?;
+    let mut figure = Figure::new(
+        "A step of the paper's settling scene: 12,000 grains in 6.4 million cells",
+        Axis::of_names(&ways.iter().map(String::as_str).collect::<Vec<_>>()),
+        Axis::linear("seconds on the clock"),
+    );
+    for part in table.values("part")? {
+        let own = table.with(&[("part", &part)])?;
+        let each = own.numbers("seconds_on_the_clock")?;
+        let points = each.into_iter().enumerate().map(|(place, s)| (place as f64 + 1.0, s));
+        figure = figure.with(Series::points(part, points.collect()));
+    }
+    Ok(figure.note("by how solid fractions are found, and with which solid operator; CPU engine, single precision, 2 threads"))
 }

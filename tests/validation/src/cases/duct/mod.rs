@@ -15,7 +15,7 @@ pub const CASE: Case = Case {
     title: "Poiseuille flow in a square duct",
     about: &[
         "A body force drives water through a square duct. Its mean velocity is known from a series to twelve \
-         digits: 0.140577 a h2/nu, with h half the width and a the acceleration. Half-way bounce-back walls meet \
+         digits: 0.140577 G h²/nu, with h half the width and G the force per mass. Half-way bounce-back walls meet \
          in corners here, so that no rates make the flow exact; its error falls with the square of the cell \
          size for each collision. Mean velocity by mass flux, on the whole section; tau = 0.8. Steady: the mean \
          velocity changes by less than 1e-9 of itself (kernel: 1e-6) in 200 steps, in three consecutive samples.",

@@ -10,7 +10,7 @@ use super::{Bench, Case, CaseError, Claim, Golden};
 use psmrt::engine::EngineName;
 use psmrt::exact::Comparison;
 use psmrt::output::records::profile_rows;
-use psmrt::scene::check::records::middle;
+use psmrt::scene::check::record_kinds::middle;
 use psmrt::scene::preset_changes;
 use psmrt::table::Table;
 

@@ -148,8 +148,8 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
             measured: worst(&layer, 1.01e-3),
             allowed: 1.5..=f64::INFINITY,
             why: "that MRT is more stable at small viscosity is d'Humières et al.'s (2002) claim, but no theory gives the \
-                  ratio: the bound is two of the tried velocities, below what was measured. How right what survives is \
-                  is judged in the maps, against exact statements",
+                  ratio: the bound is two of the tried velocities, below what was measured. The maps judge how accurate the stable \
+                  runs are, against exact statements",
         },
         Claim {
             what: "bed, Noble and Torczynski's B: largest stable Reynolds number of SRT, least over tau to 1".to_owned(),

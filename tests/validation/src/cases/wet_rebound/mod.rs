@@ -4,6 +4,8 @@ mod fall;
 mod figures;
 mod study;
 
+use std::path::Path;
+
 use psmrt_report::Figure;
 
 use super::{Bench, Case, CaseError, Claim, Golden};
@@ -70,6 +72,22 @@ fn measured(bounces: &Table, liquid: &Liquid, stokes: &str) -> Result<Vec<(f64, 
 /// The measured rebound as it is read off the computed ones: the sphere comes with `U`.
 fn measured_restitution(measured: &[(f64, f64)], liquid: &Liquid) -> f64 {
     at(measured, JUDGED) / (JUDGED * liquid.dry)
+}
+
+/// Stokes numbers, restitutions over the dry one, and whether they are measured (else the fit's). Errors if a table cannot be
+/// read.
+pub fn wet_restitutions(golden: &Path) -> Result<Vec<(String, f64, bool)>, CaseError> {
+    let golden = Golden::of(&CASE, golden);
+    let (literature, bounces) = (golden.table("literature.csv")?, golden.table("bounces.csv")?);
+    let each = literature.values("St")?.into_iter().map(|stokes| {
+        let liquid = Liquid::of(&literature, &stokes)?;
+        let course = measured(&bounces, &liquid, &stokes).unwrap_or_default();
+        let is_measured = !course.is_empty();
+        let fit = literature.with(&[("St", &stokes)])?.number("legendre")?;
+        let value = if is_measured { measured_restitution(&course, &liquid) } else { fit };
+        Ok((stokes, value, is_measured))
+    });
+    each.collect()
 }
 
 fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {

@@ -192,9 +192,10 @@ fn trade_claims(study: &Table) -> Result<Vec<Claim>, CaseError> {
                 0.1..=1.0,
                 "fixed before: lubrication counts by more than the scatter of the measurements",
             ),
-            Between::Always if fall.contact > BASE.contact => {
-                (-1.0..=-0.1, "as much: a contact of 10 steps is not one for lubrication to act in")
-            }
+            Between::Always if fall.contact > BASE.contact => (
+                -1.0..=-0.1,
+                "as much, the other way: in a contact of 10 steps lubrication has no place",
+            ),
             Between::Always if fall.smallest > BASE.smallest => (
                 0.0..=0.4,
                 "to leading order lubrication takes 2 ln(s)/St between gaps that are s times as large, 0.08 for 3 and 0.18 for 10; twice \
