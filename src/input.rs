@@ -58,6 +58,12 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
     if bytes.len() as u64 > most { Err(too_large) } else { Ok(bytes) }
 }
 
+/// Whether a name ends so, in small letters or capitals.
+pub fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or("");
+    endings.iter().any(|known| known.eq_ignore_ascii_case(ending))
+}
+
 fn regular(metadata: &Metadata) -> Result<(), InputError> {
     if metadata.is_file() { Ok(()) } else { Err(InputError::NoFile(kind(metadata.file_type()))) }
 }

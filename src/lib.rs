@@ -26,7 +26,9 @@
 //! | [`in_time`] | values that change in time |
 //! | [`input`] | reading of files that the user names |
 //! | [`quote`] | how the user's text stands in messages |
-//! | [`npy`] | reading of NumPy arrays |
+//! | [`npy`] | reading of NumPy arrays, and their header |
+//! | [`number_type`] | numbers as files hold them |
+//! | [`voxels`] | images of solids, voxel by voxel |
 //! | [`machine`] | what this machine has |
 //! | [`provenance`] | which commit results come from, and which day |
 
@@ -50,6 +52,7 @@ pub mod kernel;
 pub mod lanes;
 pub mod machine;
 pub mod npy;
+pub mod number_type;
 pub mod output;
 pub mod packing;
 pub mod provenance;
@@ -60,3 +63,4 @@ pub mod seepage;
 pub mod stopped_grain;
 pub mod table;
 pub mod units;
+pub mod voxels;

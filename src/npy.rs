@@ -1,7 +1,11 @@
-//! Reading of NumPy arrays, as numpy.lib.format describes them: any real type, either order of axes,
-//! little-endian. (Written by [`crate::output::npy`].)
+//! Reading of NumPy arrays, as numpy.lib.format describes them: any real type, either order of axes and
+//! of bytes; and their header, for those who write them.
+
+use std::io::{self, Write};
 
 use thiserror::Error;
+
+use crate::number_type::NumberType;
 
 /// A file that is no array that can be used.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
@@ -22,14 +26,27 @@ pub enum NpyError {
     Header(&'static str),
     /// A type of values that is not read.
     #[error(
-        "its values are of type {}: save it as float64, float32, float16 or an integer, little-endian",
+        "its values are of type {}: save it as float64, float32, float16, an integer or bool",
         crate::quote::quoted(.0)
     )]
     Type(String),
 }
 
-/// Shape and values of an array, the values in C order (the last index runs fastest).
-pub fn read(bytes: &[u8]) -> Result<(Vec<usize>, Vec<f64>), NpyError> {
+/// What stands before the values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Header {
+    /// Lengths of the axes.
+    pub shape: Vec<usize>,
+    /// Whether the first index runs fastest; else the last.
+    pub is_fortran: bool,
+    /// Type of the values.
+    pub number: NumberType,
+    /// Bytes before the first value.
+    pub start: usize,
+}
+
+/// The header of an array. Errors too if its values are not all there.
+pub fn header(bytes: &[u8]) -> Result<Header, NpyError> {
     let rest = bytes.strip_prefix(b"\x93NUMPY").ok_or(NpyError::Foreign)?;
     let (length, rest) = match rest {
         [1, _, a, b, rest @ ..] => (usize::from(u16::from_le_bytes([*a, *b])), rest),
@@ -41,21 +58,45 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<usize>, Vec<f64>), NpyError> {
     let (header, values) = rest.split_at_checked(length).ok_or(NpyError::Foreign)?;
     let header = String::from_utf8_lossy(header);
     let descr = quoted(&header, "'descr':").ok_or(NpyError::Header("descr"))?;
-    let fortran = header
+    let is_fortran = header
         .split_once("'fortran_order':")
         .map(|(_, rest)| rest.trim_start().starts_with("True"))
         .ok_or(NpyError::Header("fortran_order"))?;
     let shape = shape(&header).ok_or(NpyError::Header("shape"))?;
-    let (size, convert) = converter(&descr).ok_or(NpyError::Type(descr))?;
+    let number = NumberType::of_numpy(&descr).ok_or(NpyError::Type(descr))?;
     let count = shape.iter().try_fold(1_usize, |product, &n| product.checked_mul(n));
-    let needed =
-        count.and_then(|count| count.checked_mul(size)).ok_or(NpyError::Header("usable shape"))?;
+    let needed = count
+        .and_then(|count| count.checked_mul(number.size()))
+        .ok_or(NpyError::Header("usable shape"))?;
     if values.len() < needed {
         return Err(NpyError::Short { found: values.len(), needed });
     }
-    let values: Vec<f64> = values[..needed].chunks_exact(size).map(convert).collect();
-    let values = if fortran { into_c_order(&shape, &values) } else { values };
+    Ok(Header { shape, is_fortran, number, start: bytes.len() - values.len() })
+}
+
+/// Shape and values of an array, the values in C order (the last index runs fastest).
+pub fn read(bytes: &[u8]) -> Result<(Vec<usize>, Vec<f64>), NpyError> {
+    let Header { shape, is_fortran, number, start } = header(bytes)?;
+    let count = shape.iter().product::<usize>();
+    let values = bytes[start..].chunks_exact(number.size()).take(count);
+    let values: Vec<f64> = values.map(|value| number.read(value)).collect();
+    let values = if is_fortran { into_c_order(&shape, &values) } else { values };
     Ok((shape, values))
+}
+
+/// Writes what stands before the values of an array; `code` is NumPy's for their type.
+pub fn write_header(out: &mut impl Write, code: &str, shape: &[usize]) -> io::Result<()> {
+    let shape: String = shape.iter().map(|length| format!("{length}, ")).collect();
+    let mut header =
+        format!("{{'descr': '{code}', 'fortran_order': False, 'shape': ({}), }}", shape.trim_end());
+    // Magic (6), version (2), length (2), header and a newline fill a multiple of 64 bytes.
+    let length = (10 + header.len() + 1).next_multiple_of(64) - 10;
+    header.push_str(&" ".repeat(length - header.len() - 1));
+    header.push('\n');
+    out.write_all(b"\x93NUMPY\x01\x00")?;
+    let length = u16::try_from(length).map_err(io::Error::other)?;
+    out.write_all(&length.to_le_bytes())?;
+    out.write_all(header.as_bytes())
 }
 
 /// The quoted text after `key`.
@@ -70,43 +111,6 @@ fn shape(header: &str) -> Option<Vec<usize>> {
     let (list, _) = rest.split_once(')')?;
     let lengths = list.split(',').map(str::trim).filter(|length| !length.is_empty());
     lengths.map(|length| length.parse().ok()).collect()
-}
-
-/// Bytes of a value, and what makes a number of them.
-type Converter = (usize, fn(&[u8]) -> f64);
-
-fn converter(descr: &str) -> Option<Converter> {
-    /// The first bytes of a slice that has that many.
-    fn first<const N: usize>(bytes: &[u8]) -> [u8; N] {
-        std::array::from_fn(|i| bytes[i])
-    }
-    let converter: Converter = match descr {
-        "<f8" => (8, |b| f64::from_le_bytes(first(b))),
-        "<f4" => (4, |b| f32::from_le_bytes(first(b)).into()),
-        "<f2" => (2, |b| half(u16::from_le_bytes(first(b)))),
-        "<i8" => (8, |b| i64::from_le_bytes(first(b)) as f64),
-        "<u8" => (8, |b| u64::from_le_bytes(first(b)) as f64),
-        "<i4" => (4, |b| i32::from_le_bytes(first(b)).into()),
-        "<u4" => (4, |b| u32::from_le_bytes(first(b)).into()),
-        "<i2" => (2, |b| i16::from_le_bytes(first(b)).into()),
-        "<u2" => (2, |b| u16::from_le_bytes(first(b)).into()),
-        "|i1" => (1, |b| i8::from_le_bytes(first(b)).into()),
-        "|u1" => (1, |b| b[0].into()),
-        _ => return None,
-    };
-    Some(converter)
-}
-
-/// A number in half precision: one bit of sign, five of exponent, ten of fraction.
-fn half(bits: u16) -> f64 {
-    let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
-    let (exponent, fraction) = (i32::from(bits >> 10 & 0x1f), f64::from(bits & 0x3ff) / 1024.0);
-    match exponent {
-        0 => sign * fraction * 2.0_f64.powi(-14),
-        31 if fraction == 0.0 => sign * f64::INFINITY,
-        31 => f64::NAN,
-        _ => sign * (1.0 + fraction) * 2.0_f64.powi(exponent - 15),
-    }
 }
 
 /// Values whose first index runs fastest, put so that the last one does.

@@ -6,7 +6,6 @@ use std::f64::consts::PI;
 use psmrt_reference::coupling::Gravity;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::{Vec3, viscosity};
-use psmrt_reference::solids::Shape;
 use serde_json::{Value as Json, json};
 
 use super::conclusion::{Conclusion, is_steady, steady_words};
@@ -20,7 +19,7 @@ use crate::scene::{Scene, What};
 use crate::seepage::bed::{DENSE, layer};
 use crate::seepage::laws::SI_DARCY;
 use crate::seepage::permeability::{BESIDE, Seepage};
-use crate::seepage::spheres::spheres_of;
+use crate::seepage::spheres::{has_image, spheres_of};
 
 /// All that can be concluded.
 pub(super) fn conclusions(scene: &Scene, engine: &Coupled, end: End) -> Vec<Conclusion> {
@@ -140,7 +139,7 @@ fn drag_coefficient(scene: &Scene, engine: &Coupled, end: End) -> Option<Conclus
     let setup = engine.setup();
     let spheres = spheres_of(setup);
     let &[(solid, radius, share)] = &spheres[..] else { return None };
-    if !matches!(solid.shape, Shape::Sphere { .. }) {
+    if has_image(setup) {
         return None;
     }
     if scene.free.is_some() || setup.body_force.is_some_and(|force| force.norm() > 0.0) {

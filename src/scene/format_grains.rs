@@ -5,18 +5,20 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::format_time::VectorInTime;
+use super::format_voxels::ImageSection;
 use super::triple::Triple;
 
-/// A grain, or several made by one rule. Each grain is a sphere.
+/// A grain, or several made by one rule. Each grain is a sphere; an image shows solids of any shape.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrainsSection {
     /// `sphere` (one grain), `csv` (a list in a file), `array` (a regular array that fills the domain),
-    /// `random` (a random suspension) or `bed` (grains that have settled onto the face `z_low`).
+    /// `random` (a random suspension), `bed` (grains that have settled onto the face `z_low`) or `voxels` (solids of any
+    /// shape, as an image shows them; they are fixed).
     pub kind: GrainsKind,
     /// With `sphere`: its centre, m.
     pub centre: Option<Triple>,
-    /// With all kinds but `csv`: diameter, m.
+    /// With all kinds but `csv` and `voxels`: diameter, m.
     pub diameter: Option<f64>,
     /// With `csv`: the file, relative to the scene. Its first line is
     /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own, the
@@ -24,6 +26,8 @@ pub struct GrainsSection {
     /// grain. Free grains may have `velocity_x (m/s)` to `velocity_z (m/s)` and `spin_x (rad/s)` to `spin_z (rad/s)`, as at the
     /// start. A run with free grains leaves such a list of them, `grains_at_end.csv`. Blank lines and lines that begin with `#` are left out.
     pub file: Option<String>,
+    /// With `voxels`: the image.
+    pub image: Option<ImageSection>,
     /// With `array`: `sc` (simple cubic), `bcc` (body-centred) or `fcc` (face-centred).
     pub lattice: Option<LatticeName>,
     /// With `array`: unit cells along x, y, z; 1 each where absent. They must come out as cubes.
@@ -76,6 +80,8 @@ pub enum GrainsKind {
     Random,
     /// A settled bed.
     Bed,
+    /// An image.
+    Voxels,
 }
 
 /// A regular array.

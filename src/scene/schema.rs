@@ -34,6 +34,8 @@ pub(crate) enum Kind<'a> {
         /// Whether they are whole.
         whole: bool,
     },
+    /// Any count of numbers.
+    NumberList,
     /// A list of some words.
     Words(Vec<&'a str>),
     /// Rows of a fixed count of numbers.
@@ -89,7 +91,8 @@ impl<'a> Kind<'a> {
                 }
                 match (node.get("minItems").and_then(Value::as_u64), words(item)) {
                     (Some(count), _) => Kind::Numbers { count, whole },
-                    (None, words) => Kind::Words(words.unwrap_or_default()),
+                    (None, Some(words)) => Kind::Words(words),
+                    (None, None) => Kind::NumberList,
                 }
             }
             "integer" => Kind::Whole,
@@ -115,6 +118,7 @@ impl<'a> Kind<'a> {
             Kind::Sections(_) => "sections".to_owned(),
             Kind::Word(words) => listed(words),
             Kind::Numbers { count, .. } => format!("{count} numbers"),
+            Kind::NumberList => "list of numbers".to_owned(),
             Kind::Words(words) => format!("list of {}", listed(words)),
             Kind::Rows(count) => format!("rows of {count} numbers"),
             Kind::InTime { value, .. } => format!("{}, or section", value.words()),

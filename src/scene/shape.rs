@@ -156,6 +156,19 @@ fn value(found: &Value, wanted: &Kind, key: &str) -> Result<(), Misfit> {
                 }),
             })
         }
+        Kind::NumberList => {
+            let Some(list) = found.as_array() else {
+                return misfit("it is a list of numbers in brackets".to_owned(), meaning());
+            };
+            list.iter().try_for_each(|value| {
+                number(value, false).map_err(|(problem, remedy)| Misfit {
+                    key: key.to_owned(),
+                    span: value.span(),
+                    problem: format!("each of its entries is a number: this {problem}"),
+                    remedy: remedy.unwrap_or_else(meaning),
+                })
+            })
+        }
         Kind::Rows(count) => {
             let is_row = |row: &Value| {
                 let list = row.as_array().filter(|list| list.len() as u64 == *count);

@@ -13,7 +13,7 @@ use psmrt_reference::solids::Solid;
 
 use crate::scene::Scene;
 
-use super::spheres::{share_of, solid_fraction, spheres, spheres_of};
+use super::spheres::{has_image, share_of, solid_fraction, spheres, spheres_of, volume};
 
 /// A bed that is told from its domain has at least this solid fraction: looser grains are a cloud, whose drag
 /// does not depend much on how they lie.
@@ -104,9 +104,12 @@ pub(crate) struct Layer {
 }
 
 /// The bed of a set-up along one axis, with the grains where they are now and over the whole cross-section; the domain
-/// where no bed is told from it.
+/// where no bed is told from it. An image is a bed from its first to its last solid; along a periodic axis it is the domain.
 pub(crate) fn layer(setup: &Setup, axis: usize) -> Layer {
     let domain = &setup.domain;
+    if has_image(setup) {
+        return layer_of_image(setup, axis);
+    }
     let cells = domain.cells().map(|n| n as f64);
     let part = |(solid, radius, share): (&Solid, f64, f64)| Part::new(solid, radius, share);
     let parts: Vec<Part> = spheres_of(setup).into_iter().map(part).collect();
@@ -127,6 +130,28 @@ pub(crate) fn layer(setup: &Setup, axis: usize) -> Layer {
         return Layer { reach, fraction, is_told: true };
     }
     Layer { reach: [0.0, length], fraction: whole, is_told: false }
+}
+
+fn layer_of_image(setup: &Setup, axis: usize) -> Layer {
+    let domain = &setup.domain;
+    let length = domain.cells()[axis] as f64;
+    if domain.is_periodic(axis) {
+        // It repeats, and where it begins says nothing.
+        return Layer {
+            reach: [0.0, length],
+            fraction: volume(setup) / domain.cell_count() as f64,
+            is_told: false,
+        };
+    }
+    let section = domain.cell_count() as f64 / length;
+    let solids = setup.solid_phase.iter().flat_map(|phase| &phase.solids);
+    let reaches = solids.filter_map(|solid| solid.bounds(domain));
+    let [low, high] = reaches.fold([length, 0.0], |[low, high], [from, to]| {
+        [from[axis].max(0.0).min(low), to[axis].min(length).max(high)]
+    });
+    let is_told = high - low < length;
+    let reach = if low < high { [low, high] } else { [0.0, length] };
+    Layer { reach, fraction: volume(setup) / section / (reach[1] - reach[0]), is_told }
 }
 
 fn largest_of(parts: &[Part]) -> f64 {

@@ -3,6 +3,7 @@
 //! | file | what it does |
 //! |---|---|
 //! | `spheres.rs` | the spheres of a scene, and how much of each the domain holds |
+//! | `surface.rs` | volume and surface of solids of any shape |
 //! | `bed.rs` | where they lie densest |
 //! | `laws.rs` | laws for the resistance of beds of spheres |
 //! | `permeability.rs` | the permeability of a bed, by the flow that a gradient drives through it |
@@ -11,3 +12,4 @@ pub(crate) mod bed;
 pub mod laws;
 pub mod permeability;
 pub(crate) mod spheres;
+pub(crate) mod surface;

@@ -6,7 +6,8 @@ use psmrt_reference::setup::Setup;
 
 use super::bed::{Layer, layer};
 use super::laws::{BED_LAWS, BedLaw, SI_DARCY};
-use super::spheres::spheres_of;
+use super::spheres::{has_image, spheres_of};
+use super::surface::sauter;
 use crate::engine::{Block, Coupled};
 use crate::scene::Scene;
 use crate::scene::columns::PERMEABILITY_COLUMNS;
@@ -31,7 +32,7 @@ pub struct Seepage {
     pub si_reach: [f64; 2],
     /// Its porosity.
     pub porosity: f64,
-    /// Mean diameter of its grains, `Σd³/Σd²` (Sauter), m.
+    /// Mean diameter of its grains, `Σd³/Σd²` (Sauter), m; of an image six times its volume over its surface.
     pub si_diameter: f64,
 }
 
@@ -121,15 +122,6 @@ pub fn seepage(
     }
 }
 
-/// Mean diameter `Σd³/Σd²`, cells: a bed of it has the volume and the surface of the grains.
-pub(crate) fn sauter(setup: &Setup) -> f64 {
-    let sums = spheres_of(setup).iter().fold([0.0; 2], |[three, two], (_, radius, share)| {
-        let d = 2.0 * radius;
-        [three + share * d.powi(3), two + share * d * d]
-    });
-    sums[0] / sums[1]
-}
-
 /// What drives the fluid through the bed per length, `(p₁ - p₂ + G (x₂ - x₁))/L`, lattice units; `L` is how much of the
 /// bed lies between the planes.
 fn gradient(engine: &Coupled, bed: &Layer, axis: usize) -> f64 {
@@ -153,7 +145,8 @@ fn gradient(engine: &Coupled, bed: &Layer, axis: usize) -> f64 {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "cells from 0 to n")]
 fn planes(setup: &Setup, bed: &Layer, axis: usize) -> [usize; 2] {
     let last = setup.domain.cells()[axis] as f64 - 1.0;
-    let away = spheres_of(setup).iter().map(|sphere| sphere.1).fold(0.0, f64::max);
+    let of_image = if has_image(setup) { 0.5 * sauter(setup) } else { 0.0 };
+    let away = spheres_of(setup).iter().map(|sphere| sphere.1).fold(of_image, f64::max);
     let [low, high] = bed.reach;
     [(low - away).floor(), (high + away).floor()].map(|plane| plane.clamp(0.0, last) as usize)
 }

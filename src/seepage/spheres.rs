@@ -6,8 +6,8 @@ use psmrt_reference::solids::{Shape, Solid};
 
 use crate::scene::Scene;
 
-/// The solids as spheres: solid, radius in cells (of the sphere of its volume, if it is of given cells), and the share
-/// of it that lies inside mirror planes (where two of them cut it, as if each did so at every height).
+/// The spheres among the solids, which stand before all others: solid, radius in cells, and the share of it that lies inside
+/// mirror planes (where two of them cut it, as if each did so at every height).
 pub(crate) fn spheres(scene: &Scene) -> Vec<(&Solid, f64, f64)> {
     spheres_of(&scene.setup)
 }
@@ -16,9 +16,6 @@ pub(crate) fn spheres(scene: &Scene) -> Vec<(&Solid, f64, f64)> {
 pub(crate) fn spheres_of(setup: &Setup) -> Vec<(&Solid, f64, f64)> {
     let domain = &setup.domain;
     let share = |solid: &Solid| {
-        if !is_sphere(solid) {
-            return 1.0;
-        }
         let along = |axis: usize| {
             let [low, high] = domain.faces().axis(axis).map(|face| face == Face::FreeSlip);
             let low = if low { 0.0 } else { f64::NEG_INFINITY };
@@ -28,7 +25,8 @@ pub(crate) fn spheres_of(setup: &Setup) -> Vec<(&Solid, f64, f64)> {
         (0..3).map(along).product()
     };
     let solids = setup.solid_phase.iter().flat_map(|phase| &phase.solids);
-    solids.map(|solid| (solid, 0.5 * solid.diameter(), share(solid))).collect()
+    let spheres = solids.filter(|solid| !is_of_cells(solid));
+    spheres.map(|solid| (solid, 0.5 * solid.diameter(), share(solid))).collect()
 }
 
 /// Share of a sphere between two planes.
@@ -41,21 +39,37 @@ pub(crate) fn share_of(radius: f64, centre: f64, [low, high]: [f64; 2]) -> f64 {
     below(high) - below(low)
 }
 
-/// Given cells lie in the domain, all of them.
-fn is_sphere(solid: &Solid) -> bool {
-    matches!(solid.shape, Shape::Sphere { .. })
+/// Volume of the solids, cells.
+pub(crate) fn volume(setup: &Setup) -> f64 {
+    let spheres: f64 =
+        spheres_of(setup).iter().map(|&(solid, _, share)| share * solid.volume()).sum();
+    // Given cells lie in the domain, all of them.
+    let solids = setup.solid_phase.iter().flat_map(|phase| &phase.solids);
+    spheres + solids.filter(|solid| is_of_cells(solid)).map(Solid::volume).sum::<f64>()
 }
 
 /// Volume of the solids over that of the domain.
 pub(crate) fn solid_fraction(scene: &Scene) -> f64 {
-    let volume: f64 = spheres(scene).iter().map(|&(solid, _, share)| share * solid.volume()).sum();
-    volume / scene.setup.domain.cell_count() as f64
+    volume(&scene.setup) / scene.setup.domain.cell_count() as f64
 }
 
-/// Diameters in cells, smallest and largest, if there are grains.
+/// Diameters of the spheres in cells, smallest and largest, if there are any.
 pub(crate) fn diameters(scene: &Scene) -> Option<(f64, f64)> {
     let solids = &scene.setup.solid_phase.as_ref()?.solids;
-    let all = solids.iter().map(Solid::diameter);
+    let all = solids.iter().filter(|solid| !is_of_cells(solid)).map(Solid::diameter);
     let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(l, h), d| (l.min(d), h.max(d)));
     (high > 0.0).then_some((low, high))
+}
+
+/// Whether a solid is given cell by cell: an image.
+pub(crate) fn is_of_cells(solid: &Solid) -> bool {
+    match solid.shape {
+        Shape::Cells { .. } => true,
+        Shape::Sphere { .. } => false,
+    }
+}
+
+/// Whether one of the solids of a set-up is.
+pub(crate) fn has_image(setup: &Setup) -> bool {
+    setup.solid_phase.iter().any(|phase| phase.solids.iter().any(is_of_cells))
 }

@@ -47,6 +47,8 @@ mod drive;
 mod exact_text;
 mod extremes;
 mod going_on;
+mod image_files;
+mod images;
 mod implicit_coupling;
 mod in_time;
 mod kernel_coverage;

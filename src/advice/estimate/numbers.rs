@@ -10,7 +10,8 @@ use crate::advice::plan::predict::Outside;
 use crate::engine::EngineName;
 use crate::scene::Scene;
 use crate::seepage::bed::bed;
-use crate::seepage::spheres::{diameters, solid_fraction};
+use crate::seepage::spheres::{diameters, has_image, is_of_cells, solid_fraction};
+use crate::seepage::surface::sauter;
 
 /// The length for the Reynolds number, m, and what it is.
 fn si_length(scene: &Scene) -> (f64, &'static str) {
@@ -72,11 +73,19 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
         ));
     }
     if let (Some((low, high)), Some(phase)) = (diameters(scene), &scene.setup.solid_phase) {
-        numbers.push(number("grains", phase.solids.len() as f64, "", "spheres"));
+        let spheres = phase.solids.iter().filter(|solid| !is_of_cells(solid)).count();
+        numbers.push(number("grains", spheres as f64, "", "spheres"));
         let note = if high > low { format!("the largest has {high:.2}") } else { String::new() };
         numbers.push(number("cells per diameter", low, "", note));
-        let note = "grains over domain";
+    }
+    let has_image = has_image(&scene.setup);
+    if scene.setup.solid_phase.is_some() {
+        let note = if has_image { "solids over domain" } else { "grains over domain" };
         numbers.push(number("solid fraction", solid_fraction(scene), "", note));
+    }
+    if has_image {
+        let note = "of spheres with the volume and the surface of the image, 6 V/S";
+        numbers.push(number("cells per diameter", sauter(&scene.setup), "", note));
     }
     if let Some(bed) = bed(scene) {
         let [x, y, z] = bed.reaches;

@@ -13,7 +13,7 @@ use crate::scene::check::permeability::through_bed;
 use crate::scene::{Scene, What};
 use crate::seepage::bed::{DENSE, Layer, layer};
 use crate::seepage::laws::{BED_LAWS, BedLaw};
-use crate::seepage::permeability::sauter;
+use crate::seepage::surface::sauter;
 
 /// The law that velocities are foretold by; others differ from it by up to 17 %.
 const LAW: BedLaw = BED_LAWS[3];
@@ -91,6 +91,13 @@ fn expected(scene: &Scene) -> Option<Expected> {
         velocity = 0.5 * (velocity + by_law(velocity) * gradient / nu);
     }
     Some(Expected { axis, si_gravity, bed, diameter, velocity, gradient, is_velocity_given: false })
+}
+
+/// The superficial velocity that the law foretells, cells per step.
+pub(crate) fn velocity_by_law(scene: &Scene) -> Option<(f64, String)> {
+    let found = expected(scene).filter(|found| !found.is_velocity_given)?;
+    let source = "what drives the fluid through the image, by the law of Beetstra et al. for spheres of its volume and surface";
+    Some((found.velocity.abs(), source.to_owned()))
 }
 
 /// The derived numbers.

@@ -5,10 +5,10 @@ use std::f64::consts::PI;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::viscosity;
 
-use super::grains;
+use super::{grains, seepage};
 use crate::advice::plan::drag::{Drag, drag};
 use crate::scene::Scene;
-use crate::seepage::spheres::{diameters, spheres};
+use crate::seepage::spheres::{diameters, has_image, spheres};
 
 /// The largest velocity that the scene names or that its forces will drive, m/s, and where it comes from.
 pub(crate) fn si_velocity(scene: &Scene) -> Option<(f64, String)> {
@@ -55,6 +55,9 @@ fn settling(scene: &Scene) -> Option<(f64, String)> {
 
 /// The superficial velocity that a body force drives through grains that it does not move, cells per step.
 pub(crate) fn superficial(scene: &Scene) -> Option<(f64, String)> {
+    if has_image(&scene.setup) {
+        return seepage::velocity_by_law(scene);
+    }
     let (force, spheres) = (scene.setup.body_force?.norm(), spheres(scene));
     let (_, diameter) = diameters(scene)?;
     let nu = viscosity(scene.setup.collision.tau());

@@ -9,6 +9,7 @@ mod ends;
 mod faces;
 mod graded;
 mod gravity;
+mod images;
 mod in_time;
 mod lists;
 mod prescribed;
@@ -25,6 +26,7 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     scales::warnings,
     accuracy::warnings,
     graded::warnings,
+    images::warnings,
     faces::warnings,
     ends::warnings,
     gravity::warnings,

@@ -15,7 +15,7 @@ use crate::advice::estimate::velocity::si_velocity;
 use crate::advice::stability::limits::Measured;
 use crate::advice::tradeoff::model::SolidMethod;
 use crate::scene::Scene;
-use crate::seepage::spheres::spheres;
+use crate::seepage::spheres::{has_image, spheres};
 use crate::table::TableError;
 
 /// What limits the accuracy of a scene.
@@ -104,6 +104,10 @@ impl Facts {
         let flat = [0, 1, 2].map(|axis| cells[axis] == 1 && setup.domain.is_periodic(axis));
         let spheres = spheres(scene);
         let nu = viscosity(setup.collision.tau());
+        if has_image(setup) {
+            let why = "it has an image, and the evidence is of spheres and of flows between walls";
+            return Ok(Err(why.to_owned()));
+        }
         let limit = if spheres.is_empty() {
             match walls(scene) {
                 Ok(limit) => limit,

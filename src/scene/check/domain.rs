@@ -7,8 +7,11 @@ use crate::scene::format::DomainSection;
 /// How far a length may be from a whole number of cells, in cells.
 const WHOLE: f64 = 1e-6;
 
-/// Cells along x, y, z.
-pub(super) fn cells(section: &DomainSection) -> Result<[usize; 3], Trouble> {
+/// Cells along x, y, z; those of an image of lengths `si_image` where the section has neither `size` nor `cells`.
+pub(super) fn cells(
+    section: &DomainSection,
+    si_image: Option<[f64; 3]>,
+) -> Result<[usize; 3], Trouble> {
     positive("domain.dx", section.dx, "m, the edge of a cell")?;
     sane("domain.dx", section.dx, 1e-12..=1e6, "m")?;
     let cells = match (&section.size, &section.cells) {
@@ -18,6 +21,9 @@ pub(super) fn cells(section: &DomainSection) -> Result<[usize; 3], Trouble> {
             let problem = "the domain has both `size` and `cells`";
             return Err(Trouble::new("domain.cells", problem, "give one of them, with `dx`"));
         }
+        (None, None) if si_image.is_some() => {
+            whole_cells_of_image(si_image.unwrap_or_default(), section.dx)?
+        }
         (None, None) => {
             let problem = "the domain has neither `size` (m) nor `cells`";
             return Err(Trouble::new("domain", problem, "add `size = [x, y, z]` in m"));
@@ -25,6 +31,18 @@ pub(super) fn cells(section: &DomainSection) -> Result<[usize; 3], Trouble> {
     };
     check_memory(cells, if section.size.is_some() { "domain.size" } else { "domain.cells" })?;
     Ok(cells)
+}
+
+/// The cells of an image.
+fn whole_cells_of_image(si_size: [f64; 3], si_dx: f64) -> Result<[usize; 3], Trouble> {
+    whole_cells(si_size, si_dx).map_err(|_| {
+        let [x, y, z] = si_size;
+        let problem = format!(
+            "the image is {x:.6e} x {y:.6e} x {z:.6e} m, which is no whole number of cells of {si_dx:e} m"
+        );
+        let remedy = "crop the image (`crop_to`), take a dx that divides it, or give `size` or `cells`";
+        Trouble::new("domain.dx", problem, remedy)
+    })
 }
 
 fn whole_cells(si_size: [f64; 3], si_dx: f64) -> Result<[usize; 3], Trouble> {

@@ -16,7 +16,18 @@ pub(super) fn foreign_keys(
     if kind != GrainsKind::Sphere {
         absent(&at("centre"), section.centre.as_ref(), "grains of kind `sphere`")?;
     }
-    if kind == GrainsKind::Csv {
+    if kind != GrainsKind::Voxels {
+        absent(&at("image"), section.image.as_ref(), "grains of kind `voxels`")?;
+    }
+    if kind == GrainsKind::Voxels {
+        let belongs = "spheres (an image says itself where solid is)";
+        absent(&at("diameter"), section.diameter.as_ref(), belongs)?;
+        if section.file.is_some() {
+            let remedy =
+                "name it there: `image = { file = \"sand.npy\", voxel = 5e-6, solid = [1] }`";
+            return Err(Trouble::new(at("file"), "an image is named by `image.file`", remedy));
+        }
+    } else if kind == GrainsKind::Csv {
         let belongs = "grains of other kinds than `csv`; the file has its own";
         absent(&at("diameter"), section.diameter.as_ref(), belongs)?;
     } else {
@@ -60,6 +71,8 @@ pub(super) fn balls(
         GrainsKind::Array => arrays::balls(section, &place.at, place.domain, place.units)?,
         GrainsKind::Random => generated::random(section, place)?,
         GrainsKind::Bed => generated::bed(section, place)?,
+        // Images are no spheres: `voxels.rs` reads them.
+        GrainsKind::Voxels => Vec::new(),
     };
     Ok((balls, None))
 }

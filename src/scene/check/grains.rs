@@ -17,11 +17,13 @@ use crate::units::Units;
 /// Densities of free grains over that of the fluid: beyond lie mistaken units.
 const DENSITY_RATIOS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 
-/// All grains of a scene, and those of them whose motion changes in time.
+/// All grains of a scene, those of them whose motion changes in time, and the solids that are no spheres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct GrainList {
     pub grains: Vec<Listed>,
     pub prescribed: Vec<Prescribed>,
+    /// Solids of other shapes, all fixed.
+    pub bodies: Vec<Solid>,
 }
 
 impl GrainList {
@@ -102,13 +104,13 @@ impl GrainList {
         motions
     }
 
-    /// All as solids of the fluid.
+    /// All as solids of the fluid: the spheres, and behind them the other solids.
     pub fn solids(&self) -> Vec<Solid> {
         let solid = |listed: &Listed| {
             let Listed { centre, radius, velocity, angular_velocity, .. } = *listed;
             Solid { shape: Shape::Sphere { radius }, centre, velocity, angular_velocity }
         };
-        self.grains.iter().map(solid).collect()
+        self.grains.iter().map(solid).chain(self.bodies.iter().cloned()).collect()
     }
 }
 

@@ -137,6 +137,7 @@ pub(super) fn place_key(section: &GrainsSection, at: &dyn Fn(&str) -> String) ->
         GrainsKind::Csv => at("file"),
         GrainsKind::Array if section.diameter.is_some() => at("diameter"),
         GrainsKind::Array => at("solid_fraction"),
+        GrainsKind::Voxels => at("image"),
         GrainsKind::Bed => at("count"),
         GrainsKind::Random if section.count.is_some() => at("count"),
         GrainsKind::Random => at("solid_fraction"),

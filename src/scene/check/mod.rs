@@ -34,6 +34,7 @@ mod signal_file;
 mod solid;
 pub mod stop;
 mod time;
+mod voxels;
 
 use std::path::Path;
 
@@ -55,6 +56,7 @@ use grains::GrainList;
 use in_time::Files;
 use numbers::{beyond, finite, positive, sane, shorter_step};
 use signal_file::Subject;
+use voxels::ListedImage;
 
 /// Largest speed in lattice units that a scene may set: a Mach number of 0.35, beyond which the
 /// error of compressibility is above a tenth.
@@ -62,7 +64,9 @@ pub const MAX_SPEED: f64 = 0.2;
 
 /// Checks a scene; files that it names are looked for in `folder`.
 pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
-    let cells = domain::cells(&file.domain)?;
+    let images = voxels::images(&file.grains, folder)?;
+    let si_image = images.first().map(ListedImage::si_size);
+    let cells = domain::cells(&file.domain, si_image)?;
     positive("fluid.density", file.fluid.density, "kg/m3, for example 1000")?;
     sane("fluid.density", file.fluid.density, 1e-6..=1e9, "kg/m3")?;
     let key = "fluid.kinematic_viscosity";
@@ -83,6 +87,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     setup.body_force = body_force.as_ref().map(|signal| signal.at(0.0));
     let initial = initial::initial(file.initial.as_ref(), &setup.domain, &units, &mut files)?;
     let mut list = GrainList::new(&file.grains, &mut files, &setup.domain, &units)?;
+    voxels::add(&images, &mut list, &mut files, (&setup.domain, &units))?;
     let gravity = file.gravity.as_ref().map(|section| {
         acceleration_in_time("gravity.acceleration", &section.acceleration, &units, &mut files)
     });
@@ -106,6 +111,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     let solids = (list.solids(), moves);
     setup.solid_phase = solid::solid_phase(file.solid.as_ref(), solids, free.is_some())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
+    voxels::check_pores(&images, &setup)?;
     implicit::check(&setup, free.as_ref())?;
     let records = records::records(&file.records, &setup, free.as_ref(), &units)?;
     let stop = stop::stop(&file.stop, &records, &units)?;

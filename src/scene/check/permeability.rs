@@ -37,7 +37,7 @@ pub(super) fn flow(
         let remedy = "leave out `velocity` and `spin` of that grain, or remove this record";
         return Err(Trouble::new(at("kind"), problem, remedy));
     }
-    let driven: Vec<usize> = (0..3).filter(|&axis| undriven(setup, axis).is_none()).collect();
+    let driven = driven_axes(setup);
     let axis = match (named.map(AxisName::index), &driven[..]) {
         (Some(axis), _) => axis,
         (None, &[axis]) => axis,
@@ -88,6 +88,11 @@ pub(crate) fn through_bed(
 
 const DRIVE: &str = "drive the fluid along a periodic axis by [body_force], or let it in at one face and out at the \
                      opposite one (`pressure`, `velocity_inlet`, `free_outflow`); or remove this record";
+
+/// The axes along which the fluid is driven.
+pub(crate) fn driven_axes(setup: &Setup) -> Vec<usize> {
+    (0..3).filter(|&axis| undriven(setup, axis).is_none()).collect()
+}
 
 /// Why no flow goes along an axis; `None` if one does.
 fn undriven(setup: &Setup, axis: usize) -> Option<String> {

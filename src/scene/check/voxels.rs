@@ -1,0 +1,394 @@
+//! Images of solids: read before the domain is known, since it may be taken from them, and put into it afterwards.
+
+use std::path::Path;
+
+use psmrt_reference::coverage::CoverageRule;
+use psmrt_reference::domain::Domain;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::setup::Setup;
+use psmrt_reference::solids::{Shape, Solid};
+
+use super::grain_kinds::foreign_keys;
+use super::grains::GrainList;
+use super::in_time::Files;
+use super::neighbours::MAX_OVERLAP;
+use super::numbers::{absent, finite, needed, positive};
+use super::permeability::driven_axes;
+use super::{Attachment, Trouble};
+use crate::input::has_ending;
+use crate::number_type::NumberType;
+use crate::quote;
+use crate::scene::format_grains::{GrainsKind, GrainsSection, MotionKind};
+use crate::scene::format_run::AxisName;
+use crate::scene::format_voxels::{AxisOrderName, ByteOrderName, ImageSection};
+use crate::units::Units;
+use crate::voxels::body::VoxelBody;
+use crate::voxels::image::{AxisOrder, Image, RawLayout};
+use crate::voxels::phase::Phase;
+use crate::voxels::pores::{pores, solid_cells};
+use crate::voxels::shares::{Placed, solid_shares};
+
+/// How far an image may reach out of the domain, cells: what rounding of lengths leaves.
+const REACHES_OUT: f64 = 1e-6;
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// An image that a section names.
+pub(super) struct ListedImage {
+    /// Number of the section.
+    pub section: usize,
+    body: VoxelBody,
+    si_voxel: f64,
+    si_corner: [f64; 3],
+    attachment: Attachment,
+}
+
+/// The images of all sections; files are looked for in `folder`.
+pub(super) fn images(
+    sections: &[GrainsSection],
+    folder: &Path,
+) -> Result<Vec<ListedImage>, Trouble> {
+    let are_images =
+        sections.iter().enumerate().filter(|(_, section)| section.kind == GrainsKind::Voxels);
+    are_images.map(|(number, section)| image(section, number, folder)).collect()
+}
+
+fn image(section: &GrainsSection, number: usize, folder: &Path) -> Result<ListedImage, Trouble> {
+    let of_section = |key: &str| format!("grains[{number}].{key}");
+    foreign_keys(section, &of_section)?;
+    if section.motion != MotionKind::Fixed {
+        let problem =
+            "the voxels of an image lie in the cells that they cover, and cannot move from there";
+        let remedy = "leave it out: an image is fixed";
+        return Err(Trouble::new(of_section("motion"), problem, remedy));
+    }
+    let belongs = "grains that move (an image is fixed)";
+    absent(&of_section("velocity"), section.velocity.as_ref(), belongs)?;
+    absent(&of_section("spin"), section.spin.as_ref(), belongs)?;
+    absent(&of_section("density"), section.density.as_ref(), "grains that are free")?;
+    let at = |key: &str| format!("grains[{number}].image.{key}");
+    let remedy = "add `image = { file = \"sand.npy\", voxel = 5e-6, solid = [1] }`";
+    let because = "grains of kind `voxels` need it";
+    let image = needed(&of_section("image"), section.image.as_ref(), because, remedy)?;
+    positive(&at("voxel"), image.voxel, "m, the edge of a voxel")?;
+    let si_corner = image.corner.unwrap_or([0.0; 3]);
+    finite(&at("corner"), &si_corner, "m")?;
+    let phase = phase(image, &at)?;
+    let path = folder.join(&image.file);
+    let raw = raw(image, &path, &at)?;
+    let order = match image.axes {
+        Some(AxisOrderName::Xyz) => AxisOrder::Xyz,
+        Some(AxisOrderName::Zyx) | None => AxisOrder::Zyx,
+    };
+    let read = Image::read(&path, order, raw).map_err(|error| {
+        let remedy = match raw {
+            Some(_) => "`shape`, `numbers` and `header_bytes` say how long the file is",
+            None => {
+                "give a NumPy array (.npy), a TIFF stack (.tif), a folder of TIFF slices, or bare numbers with `shape` \
+                 and `numbers`"
+            }
+        };
+        Trouble::new(at("file"), format!("{}: {error}", quote::path(&path)), remedy)
+    })?;
+    let [first, used] = cropped(image, read.counts(), &at)?;
+    let is_mirrored = |axis: AxisName| image.mirror.iter().flatten().any(|&named| named == axis);
+    let is_mirrored = [AxisName::X, AxisName::Y, AxisName::Z].map(is_mirrored);
+    let ending = if raw.is_some() { "raw" } else { "npy" };
+    let body = VoxelBody { image: read, first, used, is_mirrored, phase };
+    let attachment = Attachment::of_field(
+        &at("file"),
+        &format!("grains_{number}.{ending}"),
+        body.image.bytes().to_vec(),
+    );
+    Ok(ListedImage { section: number, body, si_voxel: image.voxel, si_corner, attachment })
+}
+
+/// What is solid.
+fn phase(image: &ImageSection, at: &impl Fn(&str) -> String) -> Result<Phase, Trouble> {
+    let given =
+        [image.solid.is_some(), image.solid_above.is_some(), image.grey.is_some()].map(usize::from);
+    if given.iter().sum::<usize>() > 1 {
+        let key = if image.grey.is_some() { "grey" } else { "solid_above" };
+        let problem = "what is solid is said more than once";
+        return Err(Trouble::new(
+            at(key),
+            problem,
+            "keep one of `solid`, `solid_above` and `grey`",
+        ));
+    }
+    match (&image.solid, image.solid_above, image.grey) {
+        (Some(solid), ..) if solid.is_empty() => {
+            let remedy = "give the numbers of solid voxels, for example [1]";
+            Err(Trouble::new(at("solid"), "the list is empty", remedy))
+        }
+        (Some(solid), ..) => {
+            finite(&at("solid"), solid, "the numbers of solid voxels")?;
+            Ok(Phase::Values(solid.clone()))
+        }
+        (_, Some(threshold), _) => {
+            finite(&at("solid_above"), &[threshold], "a number of the image")?;
+            Ok(Phase::Above(threshold))
+        }
+        (_, _, Some(grey @ [pore, solid])) => {
+            finite(&at("grey"), &grey, "numbers of the image")?;
+            if pore == solid {
+                let problem = "the grey of a pore and that of a solid are the same";
+                let remedy = "give [grey of a pore, grey of a solid], for example [0, 255]";
+                return Err(Trouble::new(at("grey"), problem, remedy));
+            }
+            Ok(Phase::Grey { pore, solid })
+        }
+        (None, None, None) => {
+            let remedy = "add `solid = [1]`, `solid_above = 128` or `grey = [0, 255]`";
+            Err(Trouble::new(at("solid"), "it is missing: nothing says what is solid", remedy))
+        }
+    }
+}
+
+/// How bare numbers are to be read, if the file holds such.
+fn raw(
+    image: &ImageSection,
+    path: &Path,
+    at: &impl Fn(&str) -> String,
+) -> Result<Option<RawLayout>, Trouble> {
+    let says_itself = path.is_dir() || has_ending(path, &["npy", "tif", "tiff"]);
+    if has_ending(path, &["tif", "tiff"]) || path.is_dir() {
+        absent(&at("axes"), image.axes.as_ref(), "arrays (the slices of a TIFF file follow z)")?;
+    }
+    if says_itself {
+        let belongs = "bare numbers (this file says it itself)";
+        absent(&at("shape"), image.shape.as_ref(), belongs)?;
+        absent(&at("numbers"), image.numbers.as_ref(), belongs)?;
+        absent(&at("byte_order"), image.byte_order.as_ref(), belongs)?;
+        absent(&at("header_bytes"), image.header_bytes.as_ref(), belongs)?;
+        return Ok(None);
+    }
+    if !path.exists() {
+        // Said of the file, not of how it would be read.
+        return Ok(None);
+    }
+    let because = "the file is no .npy or TIFF file, and bare numbers need it";
+    let shape = needed(&at("shape"), image.shape, because, "add `shape = [nx, ny, nz]`")?;
+    let remedy = "add `numbers = \"u8\"`, or another type";
+    let numbers = needed(&at("numbers"), image.numbers, because, remedy)?;
+    let whole = |key: &str, given: i64, least: i64| {
+        usize::try_from(given).ok().filter(|_| given >= least).ok_or_else(|| {
+            let problem = format!("it must be a whole number of at least {least}");
+            Trouble::new(at(key), problem, "give such a number")
+        })
+    };
+    let mut counts = [0; 3];
+    for axis in 0..3 {
+        counts[axis] = whole("shape", shape[axis], 1)?;
+    }
+    let start = whole("header_bytes", image.header_bytes.unwrap_or(0), 0)?;
+    let little = NumberType::named(numbers.word())
+        .ok_or_else(|| Trouble::new(at("numbers"), "it is not read", "take another type"))?;
+    let is_big = image.byte_order == Some(ByteOrderName::Big);
+    let number = if is_big { little.big_endian() } else { little };
+    Ok(Some(RawLayout { counts, number, start }))
+}
+
+/// The first voxel that is used and how many are, along each axis.
+fn cropped(
+    image: &ImageSection,
+    counts: [usize; 3],
+    at: &impl Fn(&str) -> String,
+) -> Result<[[usize; 3]; 2], Trouble> {
+    let (mut first, mut used) = ([0; 3], counts);
+    for axis in 0..3 {
+        let place = |given: Option<[i64; 3]>, absent: usize| match given {
+            Some(given) => usize::try_from(given[axis]).ok(),
+            None => Some(absent),
+        };
+        let count = counts[axis];
+        let from = place(image.crop_from, 0);
+        let to = place(image.crop_to, count);
+        match (from, to) {
+            (Some(from), Some(to)) if from < to && to <= count => {
+                (first[axis], used[axis]) = (from, to - from);
+            }
+            _ => {
+                let key = if image.crop_to.is_some() { "crop_to" } else { "crop_from" };
+                let problem = format!(
+                    "along {} the image has {count} voxels, 0 to {}, and nothing is left of it",
+                    AXES[axis],
+                    count - 1
+                );
+                let remedy = format!(
+                    "give `crop_from` from 0 and a larger `crop_to` of at most [{}, {}, {}]",
+                    counts[0], counts[1], counts[2]
+                );
+                return Err(Trouble::new(at(key), problem, remedy));
+            }
+        }
+    }
+    Ok([first, used])
+}
+
+impl ListedImage {
+    fn key(&self, key: &str) -> String {
+        format!("grains[{}].image{}{key}", self.section, if key.is_empty() { "" } else { "." })
+    }
+
+    /// Its lengths, m.
+    pub fn si_size(&self) -> [f64; 3] {
+        self.body.counts().map(|count| count as f64 * self.si_voxel)
+    }
+
+    /// It as a solid of the domain.
+    fn solid(&self, domain: &Domain, units: &Units) -> Result<Solid, Trouble> {
+        let cells = domain.cells();
+        let corner = self.si_corner.map(|place| place / units.si_dx);
+        let voxel = self.si_voxel / units.si_dx;
+        let counts = self.body.counts();
+        for axis in 0..3 {
+            let [low, high] = [corner[axis], corner[axis] + counts[axis] as f64 * voxel];
+            if low < -REACHES_OUT || high > cells[axis] as f64 + REACHES_OUT {
+                let [si_low, si_high] = [low, high].map(|place| place * units.si_dx);
+                let problem = format!(
+                    "along {} it reaches from {si_low:.6e} to {si_high:.6e} m ({} voxels of {:e} m), out of the domain (0 to \
+                     {:.6e} m)",
+                    AXES[axis],
+                    counts[axis],
+                    self.si_voxel,
+                    cells[axis] as f64 * units.si_dx
+                );
+                let remedy = "crop it (`crop_from`, `crop_to`), move it (`corner`), or leave `domain.size` and \
+                              `domain.cells` out: the domain is as large as the image then";
+                return Err(Trouble::new(self.key(""), problem, remedy));
+            }
+        }
+        let fractions = solid_shares(&self.body, &Placed { corner, voxel, cells });
+        if fractions.is_empty() {
+            let problem = format!("no voxel of it is solid: {}", self.numbers_in_words());
+            let remedy = "say which numbers are solid by `solid`, `solid_above` or `grey`";
+            return Err(Trouble::new(self.key(""), problem, remedy));
+        }
+        if fractions.len() == domain.cell_count()
+            && fractions.iter().all(|(_, share)| *share == 1.0)
+        {
+            let problem =
+                format!("all of it is solid, no pore is left: {}", self.numbers_in_words());
+            let remedy = "say which numbers are solid by `solid`, `solid_above` or `grey`";
+            return Err(Trouble::new(self.key(""), problem, remedy));
+        }
+        let middle = [0, 1, 2].map(|axis| corner[axis] + 0.5 * counts[axis] as f64 * voxel);
+        Ok(Solid { centre: Vec3::from(middle), ..Solid::fixed_cells(fractions) })
+    }
+
+    /// What numbers it has.
+    fn numbers_in_words(&self) -> String {
+        let [nx, ny, nz] = self.body.used;
+        let mut found: Vec<f64> = Vec::new();
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for z in 0..nz {
+            for y in 0..ny {
+                for x in 0..nx {
+                    let [i, j, k] = self.body.first;
+                    let number = self.body.image.number([i + x, j + y, k + z]);
+                    (least, most) = (least.min(number), most.max(number));
+                    if found.len() < 6 && !found.contains(&number) {
+                        found.push(number);
+                    }
+                }
+            }
+        }
+        if found.len() < 6 {
+            found.sort_by(f64::total_cmp);
+            let list: Vec<String> = found.iter().map(f64::to_string).collect();
+            format!("its numbers are {}", list.join(", "))
+        } else {
+            format!("its numbers lie between {least} and {most}")
+        }
+    }
+}
+
+/// Puts the images behind the spheres of a list, and keeps their files. Errors if one does not fit.
+pub(super) fn add(
+    images: &[ListedImage],
+    list: &mut GrainList,
+    files: &mut Files,
+    (domain, units): (&Domain, &Units),
+) -> Result<(), Trouble> {
+    if images.is_empty() {
+        return Ok(());
+    }
+    if let Some(grain) = list.grains.iter().find(|grain| grain.motion != MotionKind::Fixed) {
+        let problem = "a grain moves, and nothing keeps it out of what the image shows";
+        let remedy = "leave out `motion` of the grains beside an image, or the image";
+        return Err(grain.trouble(problem.to_owned(), remedy));
+    }
+    let bodies = images.iter().map(|image| image.solid(domain, units));
+    let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
+    apart(images, &bodies, &list.solids(), domain)?;
+    list.bodies = bodies;
+    files.attachments.extend(images.iter().map(|image| image.attachment.clone()));
+    Ok(())
+}
+
+/// Errors if images overlap each other or spheres.
+fn apart(
+    images: &[ListedImage],
+    bodies: &[Solid],
+    spheres: &[Solid],
+    domain: &Domain,
+) -> Result<(), Trouble> {
+    let mut filled = vec![0.0; domain.cell_count()];
+    for (image, body) in images.iter().zip(bodies) {
+        let Shape::Cells { fractions } = &body.shape else { continue };
+        for &(cell, share) in fractions {
+            filled[cell] += share;
+            if filled[cell] > 1.0 + 1e-9 {
+                let [x, y, z] = domain.coordinates(cell);
+                let problem = format!("it overlaps another image in cell [{x}, {y}, {z}]");
+                let remedy = "move one of them (`corner`), or crop it";
+                return Err(Trouble::new(image.key(""), problem, remedy));
+            }
+        }
+    }
+    for (number, sphere) in spheres.iter().enumerate() {
+        let covered = sphere.covered(domain, CoverageRule::Exact);
+        let both: f64 =
+            covered.iter().map(|at| (filled[at.cell] + at.epsilon - 1.0).max(0.0)).sum();
+        if both > MAX_OVERLAP * sphere.volume() {
+            let problem = format!(
+                "{:.1} % of grain {number} (from 0) lie in it; {:.0} % is the limit",
+                100.0 * both / sphere.volume(),
+                100.0 * MAX_OVERLAP
+            );
+            return Err(Trouble::new(images[0].key(""), problem, "move one of them"));
+        }
+    }
+    Ok(())
+}
+
+/// Errors if no pore between images lets fluid through along an axis along which it is driven.
+pub(super) fn check_pores(images: &[ListedImage], setup: &Setup) -> Result<(), Trouble> {
+    let Some(image) = images.first() else { return Ok(()) };
+    for axis in driven_axes(setup) {
+        let found = pores(&setup.domain, &solid_cells(setup), axis);
+        if found.through > 0 {
+            continue;
+        }
+        let (how, remedy) = match setup.domain.is_periodic(axis) {
+            true => (
+                "comes back to where it began a period further on",
+                format!(
+                    "put its mirror image behind it (`mirror = [\"{}\"]`), so that its ends fit to each other; ",
+                    AXES[axis]
+                ),
+            ),
+            false => ("leads from end to end", String::new()),
+        };
+        let problem = format!(
+            "no pore lets fluid through along {}, along which it is driven: the image has {} cells that are not solid \
+             throughout, and no path between them {how}",
+            AXES[axis], found.all
+        );
+        let remedy =
+            remedy + "look at what is solid (`solid`, `solid_above`, `grey`) and at `axes`";
+        return Err(Trouble::new(image.key(""), problem, remedy));
+    }
+    Ok(())
+}
