@@ -16,7 +16,7 @@ use super::plan::part;
 use super::say::say;
 use super::{CommandError, write};
 use crate::output::{atomic, grain_list};
-use crate::packing::{Amount, Sizes};
+use crate::packing::{Amount, Grading, Sizes};
 use crate::scene::check::numbers::COEFFICIENTS;
 
 /// What `psmrt pack` is asked for; lengths in m.
@@ -37,6 +37,10 @@ pub struct PackRequest {
     /// Largest diameter, m: sizes are uniformly distributed by number between --diameter and it
     #[arg(long, value_name = "M", requires = "diameter")]
     pub largest_diameter: Option<f64>,
+    /// A sieve curve instead of --diameter: diameters, m, each with the share of the mass that is finer, from 0 to 1:
+    /// 1e-4:0,2e-4:0.4,4e-4:1
+    #[arg(long, value_name = "M:SHARE,...", value_delimiter = ',', conflicts_with = "diameter", value_parser = sieve)]
+    pub grading: Vec<(f64, f64)>,
     /// Number of grains
     #[arg(long, value_name = "N")]
     pub count: Option<usize>,
@@ -161,6 +165,11 @@ fn radii(request: &PackRequest) -> Result<Vec<f64>, CommandError> {
             return Err(wrong(format!("--porosity {porosity}: it must lie between 0 and 1")));
         }
         (Some(count), porosity) => match (request.diameter, porosity) {
+            (None, Some(_)) if !request.grading.is_empty() => {
+                let problem =
+                    "--count, --porosity and --grading: give --grading and one of the others";
+                return Err(wrong(problem.to_owned()));
+            }
             (None, Some(porosity)) => {
                 return Ok(vec![radius_for(porosity, count, volume); count]);
             }
@@ -172,19 +181,33 @@ fn radii(request: &PackRequest) -> Result<Vec<f64>, CommandError> {
         },
         (None, _) => return Err(wrong("give --count, or --porosity".to_owned())),
     };
+    let none = || {
+        wrong(format!(
+            "there would be no grain, or more than {MOST_GRAINS}: change size or diameter"
+        ))
+    };
+    if !request.grading.is_empty() {
+        let grading = Grading::new(request.grading.clone())
+            .map_err(|problem| wrong(format!("--grading: {problem}")))?;
+        return grading.radii(amount, request.seed).ok_or_else(none);
+    }
     let Some(low) = request.diameter else {
-        return Err(wrong("give --diameter, in m".to_owned()));
+        return Err(wrong("give --diameter, in m, or --grading".to_owned()));
     };
     let high = request.largest_diameter.unwrap_or(low);
     if !(high >= low && high.is_finite()) {
         return Err(wrong(format!("--largest-diameter {high}: it must be at least {low}")));
     }
     let sizes = Sizes { diameters: [low, high], seed: request.seed };
-    sizes.radii(amount).ok_or_else(|| {
-        wrong(format!(
-            "there would be no grain, or more than {MOST_GRAINS}: change size or diameter"
-        ))
-    })
+    sizes.radii(amount).ok_or_else(none)
+}
+
+/// A sieve of `--grading`.
+fn sieve(text: &str) -> Result<(f64, f64), String> {
+    let numbers = text.split_once(':').and_then(|(diameter, share)| {
+        Some((diameter.trim().parse().ok()?, share.trim().parse().ok()?))
+    });
+    numbers.ok_or_else(|| "give DIAMETER:SHARE, for example 2e-4:0.4".to_owned())
 }
 
 /// Errors if the list may not have the name that was asked for.

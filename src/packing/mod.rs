@@ -2,13 +2,15 @@
 //! ([`periodic`]) and a dilute random suspension ([`suspension`]), each from a seed, and what can be
 //! said of them.
 //!
-//! How many grains, and of which sizes, says `sizes.rs`. The same seed gives the same packing, to the last bit, on any number of threads.
+//! How many grains, and of which sizes, say `sizes.rs` and, by a sieve curve, `grading.rs`. The same seed gives the same packing, to the last bit, on any number of threads.
 
 pub mod bed;
+mod grading;
 pub mod periodic;
 mod sizes;
 pub mod suspension;
 
+pub use grading::{Grading, passing_diameter};
 pub use sizes::{Amount, Sizes};
 
 use psmrt_reference::grains::grain::{Grain, sphere_volume};

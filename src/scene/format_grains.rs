@@ -35,6 +35,15 @@ pub struct GrainsSection {
     /// With `random` and `bed`, instead of `diameter`: smallest and largest diameter, m; uniformly distributed by
     /// number between them.
     pub diameter_range: Option<[f64; 2]>,
+    /// With `random` and `bed`, instead of `diameter`: a sieve curve, rows `[diameter, finer]`: diameter of the sieve, m, and the share
+    /// of the mass that is finer, from 0 to 1. Between two sieves the mass is evenly distributed over the logarithm of the
+    /// diameter; two rows with the same diameter give that part of the mass this diameter, so that
+    /// `[[1e-4, 0], [1e-4, 0.3], [3e-4, 0.3], [3e-4, 1]]` is a mixture of two. With `solid_fraction` the sizes are scaled a little, so
+    /// that the grains have just that.
+    pub grading: Option<Vec<[f64; 2]>>,
+    /// With `random` and `bed`, instead of `diameter`: a log-normal distribution of the mass: the median diameter, m, and the factor of
+    /// one standard deviation (1.5, say); cut off at three of them.
+    pub log_normal: Option<[f64; 2]>,
     /// With `array`, instead of `diameter`, and with `random`, instead of `count`: volume of the
     /// grains over that of the domain, in (0, 1). A suspension above 0.25 needs a domain that is periodic
     /// along all axes.

@@ -2,7 +2,7 @@
 
 use psmrt::packing::periodic::PeriodicPacking;
 use psmrt::packing::suspension::RandomSuspension;
-use psmrt::packing::{Amount, Packing, PackingError, Sizes};
+use psmrt::packing::{Amount, Grading, Packing, PackingError, Sizes, passing_diameter};
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
@@ -114,6 +114,78 @@ fn suspensions_that_cannot_be_are_refused_by_name() {
         (0.25..0.38).contains(&fraction),
         "{placed} grains found a place, a fraction of {fraction}"
     );
+}
+
+#[test]
+fn grains_by_a_sieve_curve_have_that_curve_and_that_volume() {
+    let curve = Grading::new(vec![(1e-4, 0.0), (2e-4, 0.4), (4e-4, 1.0)]).unwrap();
+    let radii = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 5).unwrap();
+    let volume: f64 = radii.iter().map(|radius| 4.0 / 3.0 * PI * radius.powi(3)).sum();
+    assert!((volume / 1e-8 - 1.0).abs() < 1e-12, "the grains have {volume:e} m3");
+    let diameters: Vec<f64> = radii.iter().map(|radius| 2.0 * radius).collect();
+    // Straight lines over the logarithm: 1/4 of the first part is at 2^(1/4) and so on.
+    for (share, expected) in [
+        (0.1, 1e-4 * 2.0_f64.powf(0.25)),
+        (0.2, 1e-4 * 2.0_f64.sqrt()),
+        (0.4, 2e-4),
+        (0.7, 2e-4 * 2.0_f64.sqrt()),
+        (0.94, 2e-4 * 2.0_f64.powf(0.9)),
+    ] {
+        let found = passing_diameter(&diameters, share);
+        // The largest of these 1,600 grains have 0.4 % of the mass each, the first part of the curve 1/40 of a factor of 2 for
+        // each percent: 2 % of the diameter and a percent for the volume.
+        assert!(
+            (found / expected - 1.0).abs() < 0.03,
+            "{share} is finer than {found:e}, not {expected:e}"
+        );
+    }
+    let again = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 5).unwrap();
+    assert_eq!(radii, again, "the same seed gives the same sizes");
+    let others = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 6).unwrap();
+    assert_ne!(radii, others);
+}
+
+#[test]
+fn a_mixture_of_two_sizes_has_each_of_them_and_a_log_normal_one_its_median() {
+    let mixture = Grading::new(vec![(1.0, 0.0), (1.0, 0.25), (2.0, 0.25), (2.0, 1.0)]).unwrap();
+    let radii = mixture.radii(Amount::Count(1100), 1).unwrap();
+    // Of the mass a quarter: 0.25/1 to 0.75/8 by number, 8 to 3.
+    let small = radii.iter().filter(|radius| (**radius - 0.5).abs() < 1e-9).count();
+    let large = radii.iter().filter(|radius| (**radius - 1.0).abs() < 1e-9).count();
+    assert_eq!((small, large), (800, 300));
+    let curve = Grading::log_normal(1.0, 1.3).unwrap();
+    let radii = curve.radii(Amount::Count(20_000), 1).unwrap();
+    let diameters: Vec<f64> = radii.iter().map(|radius| 2.0 * radius).collect();
+    // Median by mass 1, 84.13 % below one factor of 1.3; by number the median is exp(-3 ln² 1.3) (Hatch & Choate 1929).
+    for (share, expected) in [(0.5, 1.0), (0.841_34, 1.3), (0.158_66, 1.0 / 1.3)] {
+        let found = passing_diameter(&diameters, share);
+        assert!(
+            (found / expected - 1.0).abs() < 0.01,
+            "{share} of the mass is below {found}, not {expected}"
+        );
+    }
+    let mut sorted = diameters.clone();
+    sorted.sort_by(f64::total_cmp);
+    let (median, expected) = (sorted[10_000], (-3.0 * 1.3_f64.ln().powi(2)).exp());
+    assert!(
+        (median / expected - 1.0).abs() < 0.02,
+        "half of the grains are below {median}, not {expected}"
+    );
+}
+
+#[test]
+fn a_sieve_curve_that_is_none_is_told() {
+    for (points, told) in [
+        (vec![], "no sieves"),
+        (vec![(1e-4, 0.0), (2e-4, 0.9)], "from 0 to 0.9"),
+        (vec![(1e-4, 0.0), (2e-4, 0.6), (3e-4, 0.5), (4e-4, 1.0)], "must not fall"),
+        (vec![(2e-4, 0.0), (1e-4, 1.0)], "must not fall"),
+        (vec![(0.0, 0.0), (1e-4, 1.0)], "above 0"),
+    ] {
+        let said = Grading::new(points.clone()).unwrap_err();
+        assert!(said.contains(told), "{points:?}: {said}");
+    }
+    assert!(Grading::log_normal(1e-4, 1.0).unwrap_err().contains("above 1"));
 }
 
 #[test]

@@ -8,9 +8,10 @@ use super::warnings::accuracy::{outlook, subject};
 use super::{grains, memory, seepage};
 use crate::advice::plan::predict::Outside;
 use crate::engine::EngineName;
+use crate::packing::passing_diameter;
 use crate::scene::Scene;
 use crate::seepage::bed::bed;
-use crate::seepage::spheres::{diameters, has_image, is_of_cells, solid_fraction};
+use crate::seepage::spheres::{diameters, has_image, is_of_cells, solid_fraction, spheres};
 use crate::seepage::surface::sauter;
 
 /// The length for the Reynolds number, m, and what it is.
@@ -46,6 +47,20 @@ fn predicted_error(scene: &Scene) -> Option<Number> {
     Some(number("predicted error", 100.0 * found.error, "%", note))
 }
 
+/// The sizes by mass, of spheres that are not all alike.
+fn grading(scene: &Scene) -> Option<Number> {
+    let si_diameters: Vec<f64> =
+        spheres(scene).iter().map(|(_, radius, _)| 2.0 * radius * scene.units.si_dx).collect();
+    let [d10, d50, d60] = [0.1, 0.5, 0.6].map(|share| passing_diameter(&si_diameters, share));
+    let (low, high) = diameters(scene)?;
+    // Beyond what rounding makes of diameters that are alike.
+    if high / low < 1.0 + 1e-6 {
+        return None;
+    }
+    let note = format!("by mass; d10 {d10:.4e} m, d60/d10 = {:.2}", d60 / d10);
+    Some(number("d50", d50, "m", note))
+}
+
 /// The derived numbers, with values that change in time at their largest.
 pub fn numbers(scene: &Scene) -> Vec<Number> {
     let scene = &*scene.at_its_strongest();
@@ -78,6 +93,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
         let note = if high > low { format!("the largest has {high:.2}") } else { String::new() };
         numbers.push(number("cells per diameter", low, "", note));
     }
+    numbers.extend(grading(scene));
     let has_image = has_image(&scene.setup);
     if scene.setup.solid_phase.is_some() {
         let note = if has_image { "solids over domain" } else { "grains over domain" };

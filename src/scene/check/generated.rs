@@ -13,7 +13,7 @@ use super::Trouble;
 use super::contact::DEFAULT_FRICTION;
 use super::listed::{Ball, Site, check_size, size_key};
 use super::numbers::{absent, coefficient, count, needed, positive};
-use crate::packing::{Amount, Sizes};
+use crate::packing::{Amount, Grading, Sizes};
 use crate::scene::format_grains::GrainsSection;
 
 /// Above this solid fraction random places run out: grains are pushed apart instead.
@@ -116,7 +116,7 @@ fn whole(key: &str, given: i64, most: usize) -> Result<usize, Trouble> {
     })
 }
 
-/// Radii, m: all alike, or evenly distributed over `diameter_range`.
+/// Radii, m: all alike, evenly distributed over `diameter_range`, or by a sieve curve.
 fn radii(
     section: &GrainsSection,
     place: &Site,
@@ -124,24 +124,34 @@ fn radii(
     seed: u64,
 ) -> Result<Vec<f64>, Trouble> {
     let at = &place.at;
-    let si_diameters = match (section.diameter, section.diameter_range) {
-        (Some(si_diameter), None) => {
+    let given = [
+        ("diameter", section.diameter.is_some()),
+        ("diameter_range", section.diameter_range.is_some()),
+        ("grading", section.grading.is_some()),
+        ("log_normal", section.log_normal.is_some()),
+    ];
+    let mut given = given.into_iter().filter(|(_, is_given)| *is_given).map(|(key, _)| key);
+    let (first, second) = (given.next(), given.next());
+    if let (Some(first), Some(second)) = (first, second) {
+        let problem = format!("the section has both `{first}` and `{second}`");
+        return Err(Trouble::new(at(second), problem, "give one of them"));
+    }
+    let grading = grading(section, place)?;
+    let si_diameters = match (section.diameter, section.diameter_range, &grading) {
+        (_, _, Some(grading)) => grading.diameters(),
+        (Some(si_diameter), ..) => {
             positive(&at("diameter"), si_diameter, "m")?;
             [si_diameter; 2]
         }
-        (None, Some([low, high])) => {
+        (None, Some([low, high]), _) => {
             if !(low > 0.0 && low <= high && high.is_finite()) {
                 let problem = "it must be two lengths above 0, the smaller first";
                 return Err(Trouble::new(at("diameter_range"), problem, "[1e-4, 2e-4], say"));
             }
             [low, high]
         }
-        (Some(_), Some(_)) => {
-            let problem = "the section has both `diameter` and `diameter_range`";
-            return Err(Trouble::new(at("diameter_range"), problem, "give one of them"));
-        }
-        (None, None) => {
-            let problem = "it is missing: these grains need `diameter` or `diameter_range`";
+        (None, None, None) => {
+            let problem = "it is missing: these grains need `diameter`, `diameter_range`, `grading` or `log_normal`";
             return Err(Trouble::new(at("diameter"), problem, "add one of them, in m"));
         }
     };
@@ -155,11 +165,30 @@ fn radii(
         let problem = "so many grains do not fit into the domain";
         return Err(Trouble::new(at("count"), problem, "take fewer or smaller grains"));
     }
-    Sizes { diameters: si_diameters, seed }.radii(amount).ok_or_else(|| {
+    let radii = match grading {
+        Some(grading) => grading.radii(amount, seed),
+        None => Sizes { diameters: si_diameters, seed }.radii(amount),
+    };
+    radii.ok_or_else(|| {
         let key = if section.solid_fraction.is_some() { "solid_fraction" } else { "count" };
         let problem = format!("there would be no grain, or more than {MOST_GRAINS}");
         Trouble::new(at(key), problem, "change it, or the diameter")
     })
+}
+
+/// The sieve curve that a section gives, if it gives one.
+fn grading(section: &GrainsSection, place: &Site) -> Result<Option<Grading>, Trouble> {
+    let at = &place.at;
+    if let Some(rows) = &section.grading {
+        let points = rows.iter().map(|&[diameter, finer]| (diameter, finer)).collect();
+        let remedy = "rows [diameter (m), share of the mass that is finer], for example [[1e-4, 0], [2e-4, 0.4], [4e-4, 1]]";
+        let made = Grading::new(points);
+        return made.map(Some).map_err(|problem| Trouble::new(at("grading"), problem, remedy));
+    }
+    let Some([median, deviation]) = section.log_normal else { return Ok(None) };
+    let remedy = "[median diameter (m), factor of one standard deviation], for example [2e-4, 1.5]";
+    let made = Grading::log_normal(median, deviation);
+    made.map(Some).map_err(|problem| Trouble::new(at("log_normal"), problem, remedy))
 }
 
 fn balls(packing: Result<Packing, PackingError>, place: &Site) -> Result<Vec<Ball>, Trouble> {

@@ -41,6 +41,8 @@ pub(super) fn foreign_keys(
     if !matches!(kind, GrainsKind::Random | GrainsKind::Bed) {
         let belongs = "grains of kind `random` and `bed`";
         absent(&at("diameter_range"), section.diameter_range.as_ref(), belongs)?;
+        absent(&at("grading"), section.grading.as_ref(), belongs)?;
+        absent(&at("log_normal"), section.log_normal.as_ref(), belongs)?;
         absent(&at("count"), section.count.as_ref(), belongs)?;
         absent(&at("seed"), section.seed.as_ref(), belongs)?;
         absent(&at("gap"), section.gap.as_ref(), "grains of kind `random`")?;

@@ -149,6 +149,8 @@ pub(super) fn size_key(section: &GrainsSection, at: &dyn Fn(&str) -> String) -> 
     match section.kind {
         GrainsKind::Csv | GrainsKind::Array => place_key(section, at),
         _ if section.diameter_range.is_some() => at("diameter_range"),
+        _ if section.grading.is_some() => at("grading"),
+        _ if section.log_normal.is_some() => at("log_normal"),
         _ => at("diameter"),
     }
 }

@@ -15,6 +15,7 @@ mod drift;
 mod duct;
 mod fluidization;
 mod found;
+pub mod images;
 mod kernel_parity;
 mod kernel_speed;
 pub mod operators;
@@ -111,6 +112,7 @@ pub const CASES: &[Case] = &[
     sphere_drag::CASE,
     seepage::CASE,
     permeability::CASE,
+    images::CASE,
     boiling::CASE,
     spring_column::CASE,
     fluidization::CASE,

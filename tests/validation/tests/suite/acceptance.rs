@@ -97,6 +97,11 @@ fn permeability_holds_its_claims() {
 }
 
 #[test]
+fn images_of_porous_bodies_hold_their_claims() {
+    holds("images", &mut Budget::kernel(150_000_000));
+}
+
+#[test]
 fn a_sphere_thickens_sheared_water_as_einstein_derived() {
     holds("viscosity", &mut Budget::kernel(160_000_000));
 }

@@ -4,15 +4,21 @@ use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
 use super::Known;
+use super::paper;
 use super::study::{self, Blockage, VARIED, Varied};
 use crate::cases::CaseError;
 use crate::cases::found::found;
 use psmrt::table::Table;
 
-/// All of them: `rows` of the quick form, and those of the study.
-pub fn all(known: &Known, rows: &Table, study: &Table) -> Result<Vec<Figure>, CaseError> {
+/// All of them: `rows` of the quick form, those of the study, and those on the paper's grid.
+pub fn all(
+    known: &Known,
+    rows: &Table,
+    study: &Table,
+    paper: &Table,
+) -> Result<Vec<Figure>, CaseError> {
     Ok(vec![
-        drag_figure(known, rows, study)?,
+        drag_figure(known, rows, study, paper)?,
         grid_figure(known, study)?,
         box_figure(known, study)?,
         tau_figure(known, study)?,
@@ -20,7 +26,12 @@ pub fn all(known: &Known, rows: &Table, study: &Table) -> Result<Vec<Figure>, Ca
 }
 
 /// C_D against Re, and below it over that in open water.
-fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, CaseError> {
+fn drag_figure(
+    known: &Known,
+    rows: &Table,
+    study: &Table,
+    paper: &Table,
+) -> Result<Figure, CaseError> {
     let reaches = |points: Vec<(f64, f64)>| points.into_iter().filter(|p| p.0 <= 160.0).collect();
     let law = |column: &str| Ok::<Vec<_>, CaseError>(reaches(known.open.points("Re", column)?));
     let (open, white) = (law("CD_computed")?, law("CD_White")?);
@@ -53,6 +64,7 @@ fn drag_figure(known: &Known, rows: &Table, study: &Table) -> Result<Figure, Cas
             all.push(Series::points(format!("study, {cells} cells"), own.points("Re", "CD")?));
         }
     }
+    all.extend(paper::series(paper)?);
     let ratio = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
         let of = |re: f64| open.iter().find(|p| (p.0 / re - 1.0).abs() < 1e-9).map(|p| p.1);
         points.iter().filter_map(|&(re, cd)| Some((re, cd / of(re)?))).collect()

@@ -16,7 +16,7 @@ fn tau_of(reynolds: &str) -> &'static str {
 }
 
 /// What is learnt where the box was varied.
-struct Neighbours {
+pub(super) struct Neighbours {
     /// Logarithm of the Reynolds number, and C_D in the paper's box over that in open water.
     boxed: [(f64, f64); 2],
     /// What extrapolated grids leave at Re = 100, relative, against the cells in the boundary layer, `d/sqrt(Re)`,
@@ -25,7 +25,11 @@ struct Neighbours {
 }
 
 impl Neighbours {
-    fn of(study: &Table, open: impl Fn(&str) -> Result<f64, CaseError>) -> Result<Self, CaseError> {
+    /// Of the study; `open` is C_D in open water.
+    pub fn of(
+        study: &Table,
+        open: impl Fn(&str) -> Result<f64, CaseError>,
+    ) -> Result<Self, CaseError> {
         let missing = || CaseError::table("study.csv lacks the boxes of Re 10 or 100".to_owned());
         let varied = |reynolds: &str| -> Result<(&Varied, Blockage), CaseError> {
             let varied = VARIED.iter().find(|v| v.reynolds == reynolds).ok_or_else(missing)?;
@@ -48,7 +52,7 @@ impl Neighbours {
 
     /// C_D in the paper's box over that in open water: between the two by the logarithm of Re, beyond
     /// as at the second.
-    fn share(&self, reynolds: f64) -> f64 {
+    pub fn share(&self, reynolds: f64) -> f64 {
         let [(x0, y0), (x1, y1)] = self.boxed;
         y0 + (y1 - y0) * ((reynolds.ln() - x0) / (x1 - x0)).min(1.0)
     }
