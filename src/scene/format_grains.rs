@@ -24,7 +24,9 @@ pub struct GrainsSection {
     /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own, the
     /// columns in any order, `radius (m)` instead of the diameter if you like; each further line is a
     /// grain. Free grains may have `velocity_x (m/s)` to `velocity_z (m/s)` and `spin_x (rad/s)` to `spin_z (rad/s)`, as at the
-    /// start. A run with free grains leaves such a list of them, `grains_at_end.csv`. Blank lines and lines that begin with `#` are left out.
+    /// start. A run with free grains leaves such a list of them, `grains_at_end.csv`. A dump of LAMMPS or LIGGGHTS in SI units (its last
+    /// frame; columns `x y z`, `radius` or `diameter`, and perhaps `density`, `vx vy vz`, `omegax omegay omegaz`; others are left out) and
+    /// the text of YADE's `export.text` are read as well. Blank lines and lines that begin with `#` are left out.
     pub file: Option<String>,
     /// With `voxels`: the image.
     pub image: Option<ImageSection>,

@@ -49,15 +49,59 @@ fn lists_of_other_programs_give_the_same_grains() {
 
 /// A list, the line that is to blame, and what is said about it.
 #[rustfmt::skip]
+#[test]
+fn dumps_of_lammps_and_text_of_yade_give_the_same_grains() {
+    let folder = folder("lists_foreign");
+    let standard = load(&folder, format!("{HEAD}{GRAIN}")).unwrap().setup;
+    let frame = |step: u32, x: &str| {
+        format!(
+            "ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp ff\n0 1e-3\n0 1e-3\n0 1e-3\n\
+             ITEM: ATOMS id type x y z vx vy vz radius density \n1 1 {x} 2.5e-4 2.5e-4 0 0 -0.01 1e-4 2650 \n"
+        )
+    };
+    for list in [
+        frame(0, "1e-4") + &frame(100, "3e-4"),
+        frame(100, "3e-4").replace('\n', "\r\n"),
+        "#format x_y_z_r\n3e-4\t2.5e-4\t2.5e-4\t1e-4\n".to_owned(),
+        "#format x_y_z_r_matId\n# made by YADE\n3e-4 2.5e-4 2.5e-4 1e-4 0\n".to_owned(),
+    ] {
+        let setup = load(&folder, &list).unwrap_or_else(|error| panic!("{error}\n{list}")).setup;
+        assert!(setup == standard, "other grains from\n{list}");
+    }
+    for (list, told) in [
+        ("ITEM: TIMESTEP\n0\n".to_owned(), "without \"ITEM: ATOMS\""),
+        (frame(0, "3e-4").replace(" y ", " ys "), "there is no column \"y (m)\""),
+        (frame(0, "3e-4").replace("3e-4 ", "left "), "line 10"),
+    ] {
+        let said = load(&folder, &list).unwrap_err().to_string();
+        assert!(said.contains(told), "no {told:?} in\n{said}");
+    }
+}
+
 fn wrong() -> Vec<(Vec<u8>, Option<usize>, &'static str, &'static str)> {
     let utf16 = |text: &str, mark: &[u8]| -> Vec<u8> {
         mark.iter().copied().chain(text.encode_utf16().flat_map(u16::to_le_bytes)).collect()
     };
     let rows: Vec<(String, usize, &str, &str)> = vec![
         ("x,y,z,d\n1,2,3,4\n".into(), 1, "column 1 is \"x\", not \"x (m)\"", "SI units"),
-        ("x (mm),y (mm),z (mm),diameter (mm)\n0.3,0.25,0.25,0.2\n".into(), 1, "\"x (mm)\"", "divide it by 1000"),
-        ("x (m),y (m),z (m),diameter (um)\n3e-4,2.5e-4,2.5e-4,200\n".into(), 1, "\"diameter (um)\"", "divide it by 1e6"),
-        (HEAD.replace('\n', ",density (g/cm3)\n3e-4,2.5e-4,2.5e-4,2e-4,2.65\n"), 1, "(g/cm3)", "multiply it by 1000"),
+        (
+            "x (mm),y (mm),z (mm),diameter (mm)\n0.3,0.25,0.25,0.2\n".into(),
+            1,
+            "\"x (mm)\"",
+            "divide it by 1000",
+        ),
+        (
+            "x (m),y (m),z (m),diameter (um)\n3e-4,2.5e-4,2.5e-4,200\n".into(),
+            1,
+            "\"diameter (um)\"",
+            "divide it by 1e6",
+        ),
+        (
+            HEAD.replace('\n', ",density (g/cm3)\n3e-4,2.5e-4,2.5e-4,2e-4,2.65\n"),
+            1,
+            "(g/cm3)",
+            "multiply it by 1000",
+        ),
         (GRAIN.into(), 1, "begins with numbers", "x (m),y (m),z (m),diameter (m)"),
         (format!("\n{}{GRAIN}", GRAIN.replace("e-4", "D-04")), 2, "begins with numbers", "x (m)"),
         (format!("# {HEAD}{GRAIN}"), 2, "begins with numbers", "take the # off"),
@@ -69,36 +113,89 @@ fn wrong() -> Vec<(Vec<u8>, Option<usize>, &'static str, &'static str)> {
         (format!("{HEAD}{GRAIN},,,\n"), 3, "only commas", "remove the line"),
         (HEAD.into(), 2, "no grains in it", "a line for each"),
         (String::new(), 1, "nothing in it", "x (m)"),
-        (HEAD.replace('\n', ",density (kg/m3),colour\n"), 1, "a column too many, \"colour\"", "keep"),
+        (
+            HEAD.replace('\n', ",density (kg/m3),colour\n"),
+            1,
+            "a column too many, \"colour\"",
+            "keep",
+        ),
         (HEAD.replace('\n', ",density\n"), 1, "column 5 is \"density\"", "density (kg/m3)"),
         (HEAD.replace('\n', ",\n"), 1, "column 5 has no name", "commas at the end"),
         (HEAD.replace("z (m),", ""), 1, "no column \"z (m)\"", "x (m),y (m),z (m)"),
         (HEAD.replace("z (m)", "x (m)"), 1, "\"x (m)\" is there twice", "one of the columns"),
         (HEAD.replace(",diameter (m)", ""), 1, "no column \"diameter (m)\"", "radius (m)"),
         (HEAD.replace('\n', ",radius (m)\n"), 1, "for the radius", "one of them"),
-        (HEAD.replace('\n', ",density (kg/m3)\n3e-4,2.5e-4,2.5e-4,2e-4,-1\n"), 2, "density (kg/m3) = \"-1\"", "above 0"),
-        (format!("{HEAD}{GRAIN}3.0D-04,2.5D-04,2.5D-04,2.0D-04\n"), 3, "x (m) = \"3.0D-04\"", "write Fortran's D as E: 3.0E-04"),
-        ("x (m);y (m);z (m);diameter (m)\n0,0003;0,00025;0,00025;0,0002\n".into(), 1, "separated by semicolons", "decimals with points"),
-        ("x (m)\ty (m)\tz (m)\tdiameter (m)\n3e-4\t2e-4\t2e-4\t2e-4\n".into(), 1, "separated by tabulators", "tr "),
+        (
+            HEAD.replace('\n', ",density (kg/m3)\n3e-4,2.5e-4,2.5e-4,2e-4,-1\n"),
+            2,
+            "density (kg/m3) = \"-1\"",
+            "above 0",
+        ),
+        (
+            format!("{HEAD}{GRAIN}3.0D-04,2.5D-04,2.5D-04,2.0D-04\n"),
+            3,
+            "x (m) = \"3.0D-04\"",
+            "write Fortran's D as E: 3.0E-04",
+        ),
+        (
+            "x (m);y (m);z (m);diameter (m)\n0,0003;0,00025;0,00025;0,0002\n".into(),
+            1,
+            "separated by semicolons",
+            "decimals with points",
+        ),
+        (
+            "x (m)\ty (m)\tz (m)\tdiameter (m)\n3e-4\t2e-4\t2e-4\t2e-4\n".into(),
+            1,
+            "separated by tabulators",
+            "tr ",
+        ),
         ("3e-4 2.5e-4 2.5e-4 2e-4\n".into(), 1, "separated by blanks", "commas"),
-        (format!("{HEAD}0,0003,0,00025,0,00025,0,0002\n"), 2, "it has 8 values", "decimals with points"),
-        (format!("{HEAD}\"0,0003\",\"0,00025\",\"0,00025\",\"0,0002\"\n"), 2, "x (m) = \"0,0003\"", "points: 0.0003"),
+        (
+            format!("{HEAD}0,0003,0,00025,0,00025,0,0002\n"),
+            2,
+            "it has 8 values",
+            "decimals with points",
+        ),
+        (
+            format!("{HEAD}\"0,0003\",\"0,00025\",\"0,00025\",\"0,0002\"\n"),
+            2,
+            "x (m) = \"0,0003\"",
+            "points: 0.0003",
+        ),
         // The line in the file, whatever ends lines and whatever stands between them.
         (format!("{HEAD}{GRAIN}9,9,9,x\n").replace('\n', "\r\n"), 3, "diameter (m) = \"x\"", ""),
         (format!("{HEAD}{GRAIN}9,9,9,x\n").replace('\n', "\r"), 3, "diameter (m) = \"x\"", ""),
         (format!("# a\n\n{HEAD}# b\n\n\n{GRAIN}# c\n9,9,9,x\n"), 9, "diameter (m) = \"x\"", ""),
-        (format!("# a\n\n{HEAD}# b\n\n\n{GRAIN}# c\n9,9,9,x\n").replace('\n', "\r\n"), 9, "diameter (m) = \"x\"", ""),
+        (
+            format!("# a\n\n{HEAD}# b\n\n\n{GRAIN}# c\n9,9,9,x\n").replace('\n', "\r\n"),
+            9,
+            "diameter (m) = \"x\"",
+            "",
+        ),
         // Grains that the list itself cannot know to be wrong.
-        (format!("# a\n{HEAD}\n{GRAIN}3e-4,2.5e-4,1.0,2e-4\n").replace('\n', "\r\n"), 5, "outside the domain", "move it"),
+        (
+            format!("# a\n{HEAD}\n{GRAIN}3e-4,2.5e-4,1.0,2e-4\n").replace('\n', "\r\n"),
+            5,
+            "outside the domain",
+            "move it",
+        ),
         (format!("{HEAD}{GRAIN}9.5e-4,2.5e-4,2.5e-4,2e-4\n"), 3, "extends", "move it"),
         (format!("{HEAD}{GRAIN}3e-4,1e-4,1e-4,2e-5\n"), 3, "cells across", "domain.dx"),
         (format!("{HEAD}\n{GRAIN}{GRAIN}"), 4, "overlap", "apart"),
     ];
-    let mut rows: Vec<_> = rows.into_iter().map(|(list, line, told, remedy)| (list.into_bytes(), Some(line), told, remedy)).collect();
+    let mut rows: Vec<_> = rows
+        .into_iter()
+        .map(|(list, line, told, remedy)| (list.into_bytes(), Some(line), told, remedy))
+        .collect();
     rows.extend([
         (utf16(&format!("{HEAD}{GRAIN}"), &[0xff, 0xfe]), None, "UTF-16", "iconv"),
         (utf16(&format!("{HEAD}{GRAIN}"), &[]), None, "UTF-16", "iconv"),
-        (format!("{HEAD}# 20 ").into_bytes().into_iter().chain([0xb5, b'm']).collect(), None, "see line 2", "UTF-8"),
+        (
+            format!("{HEAD}# 20 ").into_bytes().into_iter().chain([0xb5, b'm']).collect(),
+            None,
+            "see line 2",
+            "UTF-8",
+        ),
     ]);
     rows
 }

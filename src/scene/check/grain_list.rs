@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::Trouble;
+use super::foreign_lists::as_list;
 pub use super::list_header::{COLUMNS, MOTION_COLUMNS};
 use super::list_header::{ListColumn, columns, wanted};
 use super::list_text::{Fault, as_decimal_comma, as_fortran, cells, decoded, numbered_lines};
@@ -22,7 +23,8 @@ pub(super) fn read(key: &str, path: &Path) -> Result<(Vec<u8>, Vec<Ball>), Troub
     })?;
     let of_file =
         |(problem, remedy): Fault| Trouble::new(key, format!("{shown}: {problem}"), remedy);
-    let balls = balls(decoded(&bytes).map_err(of_file)?).map_err(|(line, (problem, remedy))| {
+    let text = decoded(&bytes).and_then(as_list).map_err(of_file)?;
+    let balls = balls(&text).map_err(|(line, (problem, remedy))| {
         Trouble::new(key, format!("{shown}, line {line}: {problem}"), remedy)
     })?;
     Ok((bytes, balls))

@@ -10,6 +10,7 @@ pub mod contact;
 pub mod domain;
 mod effort;
 mod faces;
+mod foreign_lists;
 pub mod free;
 mod generated;
 mod grain_kinds;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::{COLLISION, Number, Quantity, of_operator, table};
+use crate::cases::images::IMAGES;
 use crate::cases::{BED_LAWS, CaseError, drag_by_grid, in_open_water};
 use psmrt::table::Table;
 
@@ -12,6 +13,7 @@ pub(super) fn numbers(golden: &Path) -> Result<Vec<Number>, CaseError> {
     all.extend(spheres(golden)?);
     all.extend(beds_at_reynolds(golden)?);
     all.extend(creeping_beds(golden)?);
+    all.extend(images(golden)?);
     Ok(all)
 }
 
@@ -121,6 +123,33 @@ fn spheres(golden: &Path) -> Result<Vec<Number>, CaseError> {
         all.push(number.with_grids(grids.collect::<Result<_, CaseError>>()?));
     }
     Ok(all)
+}
+
+/// How well finite differences on three grids, carried on at an order of 1.2, know a permeability (golden/images/stokes.py).
+const FINITE_DIFFERENCES: f64 = 0.03;
+
+/// The resistance of porous bodies that images show.
+fn images(golden: &Path) -> Result<Vec<Number>, CaseError> {
+    let study = table(golden, "images/study.csv")?.with(&[("operator", "graded_viscosity")])?;
+    let independent = table(golden, "images/independent.csv")?
+        .with(&[("program", "finite_differences"), ("cells_per_voxel", "inf")])?;
+    let each = IMAGES.into_iter().map(|image| {
+        let k = independent.with(&[("image", image)])?.number("k_voxels2")?;
+        let number = Number {
+            kind: Quantity::Resistance,
+            of: format!("image of {image}"),
+            case: "images",
+            source: "finite differences, computed for this project",
+            reference: 1.0 / k,
+            uncertainty: FINITE_DIFFERENCES,
+            grids: Vec::new(),
+            on_front: (image == "spheres")
+                .then_some("Resistance of an image of overlapping spheres, squares of a voxel"),
+        };
+        let grids = study.with(&[("image", image)])?.points("cells_per_voxel", "k_voxels2")?;
+        Ok(number.with_grids(grids.into_iter().map(|(cells, k)| (cells, 1.0 / k)).collect()))
+    });
+    each.collect()
 }
 
 /// By how much beds of so few spheres scatter about a law (golden/permeability, golden/seepage).

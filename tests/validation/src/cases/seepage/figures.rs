@@ -3,6 +3,7 @@
 use psmrt_reference::collision::Preset;
 use psmrt_report::{Axis, Figure, Marker, Series, Style};
 
+use super::full_size;
 use super::inlet;
 use super::over_law;
 use super::study::{grids, largest_stable, steady, taus};
@@ -17,11 +18,11 @@ const FRACTION: f64 = 0.6;
 pub fn all(
     rows: &Table,
     study: &Table,
-    [stability, inlet]: [&Table; 2],
+    [stability, inlet, full_size]: [&Table; 3],
     ordered: f64,
 ) -> Result<Vec<Figure>, CaseError> {
     Ok(vec![
-        friction_figure(rows, study)?,
+        friction_figure(rows, study, full_size)?,
         grid_figure(study, ordered)?,
         law_grid_figure(study)?,
         tau_figure(study)?,
@@ -30,7 +31,7 @@ pub fn all(
 }
 
 /// psi against Re, and below it over the law of Beetstra et al.
-fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
+fn friction_figure(rows: &Table, study: &Table, full_size: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
         "Seepage through random beds",
         Axis::log("Re = U d/(nu (1 - porosity))").range(0.08, 250.0),
@@ -48,6 +49,7 @@ fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
     }
     let beds = beds(rows, study)?;
     figure = beds.iter().map(|(psi, _)| psi.clone()).fold(figure, Figure::with);
+    figure = full_size::series(full_size, "psi")?.into_iter().fold(figure, Figure::with);
     figure = figure.with_panel(
         Axis::linear("psi over Beetstra et al.").range(0.6, 1.4).ticks(&[0.6, 0.8, 1.0, 1.2, 1.4]),
     );
@@ -62,6 +64,7 @@ fn friction_figure(rows: &Table, study: &Table) -> Result<Figure, CaseError> {
     for (psi, ratio) in beds {
         figure = figure.with(Series { points: ratio, ..psi });
     }
+    figure = full_size::series(full_size, "over_Beetstra")?.into_iter().fold(figure, Figure::with);
     for edge in [0.9, 1.1] {
         let ends = vec![(0.1, edge), (200.0, edge)];
         figure = figure.with(Series::new("scatter of real beds", Style::Reference, ends));

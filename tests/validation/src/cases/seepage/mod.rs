@@ -2,7 +2,8 @@
 
 pub(super) mod bed;
 pub(super) mod figures;
-pub(super) mod inlet;
+pub(super) mod full_size;
+mod inlet;
 pub(super) mod study;
 
 use psmrt_reference::collision::Preset;
@@ -56,6 +57,7 @@ pub const CASE: Case = Case {
         "stability.csv",
         "inlet.csv",
         "paper.csv",
+        "paper_size.csv",
         "../sphere_arrays/literature.csv",
     ],
     units: "permeability_d2 in squares of the diameter; largest_overlap in diameters; lattice_velocity and max_speed \
@@ -165,11 +167,13 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
     claims.extend(study::claims(&study, &stability, exact)?);
     let [inlet, paper] = [golden.table("inlet.csv")?, golden.table("paper.csv")?];
     claims.extend(inlet::claims(&inlet, &paper)?);
+    claims.extend(full_size::claims(&golden.table("paper_size.csv")?)?);
     Ok(claims)
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
     let (study, stability) = (golden.table("study.csv")?, golden.table("stability.csv")?);
     let inlet = golden.table("inlet.csv")?;
-    figures::all(rows, &study, [&stability, &inlet], ordered(golden)?)
+    let full_size = golden.table("paper_size.csv")?;
+    figures::all(rows, &study, [&stability, &inlet, &full_size], ordered(golden)?)
 }
