@@ -18,7 +18,8 @@ pub const CASE: Case = Case {
         "Three images of 32 x 32 x 32 voxels, made with porespy 3.2: overlapping spheres, fibres, and blobs, whose narrow throats are \
          a voxel wide. Water is driven through each along x between two pressure faces. k = nu U L/(dp/rho), with the superficial \
          velocity U and L = 32 voxels, is compared with that of finite differences on a staggered grid (golden/images/stokes.py, for \
-         this purpose), refined and carried on to an infinitely fine grid; and with what another lattice Boltzmann code, poromics \
+         this purpose), refined and carried on to an infinitely fine grid (which takes 6 to 9 % off their finest value, and 27 % of the \
+         blobs': that reference is known to some 9 %); and with what another lattice Boltzmann code, poromics \
          0.0.8, finds on the same grids with bounce-back at the voxels.",
         "The steps of the voxels are taken for the body's true surface here: the question is whether the flow between them is right, \
          not whether they show the body well.",
@@ -145,7 +146,7 @@ fn of_bodies(golden: &Golden, rows: &Table) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
         "Permeability of three images, over finite differences on an infinitely fine grid",
         Axis::linear("cell size, edges of a voxel").range(0.0, 1.05),
-        Axis::linear("k over the reference").range(0.6, 2.2),
+        Axis::linear("k over the reference").range(0.8, 2.4),
     )
     .with(Series::dashed("infinitely fine", vec![(0.0, 1.0), (1.05, 1.0)]));
     let independent = golden.table("independent.csv")?;
@@ -189,7 +190,7 @@ fn array(golden: &Golden) -> Result<Figure, CaseError> {
     let mut figure = Figure::new(
         "An array of spheres as an image on coarser grids: solid shares of cells, and cells that are solid or not",
         Axis::linear("cells across a sphere").range(0.0, 45.0),
-        Axis::linear("error of k, %").range(-20.0, 20.0),
+        Axis::linear("error of k, %").range(-40.0, 20.0),
     )
     .with(Series::dashed("exact (Zick & Homsy)", vec![(0.0, 0.0), (45.0, 0.0)]));
     for (number, operator) in ["graded_viscosity", "bounce_back"].into_iter().enumerate() {
