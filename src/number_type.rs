@@ -72,6 +72,11 @@ impl NumberType {
         NumberType { is_big_endian: true, ..self }
     }
 
+    /// Whether it may be infinite, or no number.
+    pub fn is_float(self) -> bool {
+        matches!(self.kind, Kind::F16 | Kind::F32 | Kind::F64)
+    }
+
     /// Bytes of one.
     pub fn size(self) -> usize {
         match self.kind {

@@ -64,7 +64,7 @@ pub struct SceneFile {
     pub compare: Option<CompareSection>,
 }
 
-/// The domain, of cubic cells of edge `dx`. Give exactly one of `size` and `cells`; or neither where [[grains]] has an image,
+/// The domain, of cubic cells of edge `dx`. Give exactly one of `size` and `cells`; or neither where `[[grains]]` has an image,
 /// which the domain is then as large as.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -145,6 +145,11 @@ impl Image {
         self.counts
     }
 
+    /// Whether a number may be infinite, or none at all.
+    pub fn is_float(&self) -> bool {
+        self.number.is_float()
+    }
+
     /// The number of a voxel.
     pub fn number(&self, at: [usize; 3]) -> f64 {
         let place: usize = (0..3).map(|axis| at[axis] * self.strides[axis]).sum();

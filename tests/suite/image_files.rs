@@ -181,6 +181,7 @@ fn bad_images_are_told_with_the_key_and_a_way_out() {
     folder.write("plane.npy", flat(&[4, 4], 1.0));
     folder.write("nothing.npy", flat(&[0, 4, 4], 1.0));
     folder.write("full.npy", flat(&[8, 8, 8], 1.0));
+    folder.write("nan.npy", flat(&[4, 4, 4], f64::NAN));
     folder.write("short.npy", &flat(&[4, 4, 4], 1.0)[..300]);
     folder.write("text.npy", "0 1 1 0\n");
     let mut lid = Vec::new();
@@ -235,6 +236,11 @@ fn bad_images_are_told_with_the_key_and_a_way_out() {
         ),
         ("file = \"full.npy\", solid = [1]".to_owned(), "", "no pore is left"),
         ("file = \"lid.npy\", solid = [1]".to_owned(), "", "no pore lets fluid through along z"),
+        (
+            "file = \"nan.npy\", grey = [0, 1]".to_owned(),
+            "file",
+            "voxel [0, 0, 0] (x, y, z from 0) is NaN",
+        ),
         (format!("{stack}, solid = [300], voxel2 = 1"), "voxel2", "has no key `voxel2`"),
         (format!("{stack}, solid = 300"), "solid", "a list of numbers in brackets"),
         (format!("{stack}, solid = [\"1\"]"), "solid", "each of its entries is a number"),

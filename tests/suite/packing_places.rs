@@ -164,7 +164,7 @@ fn a_mixture_of_two_sizes_has_each_of_them_and_a_log_normal_one_its_median() {
             "{share} of the mass is below {found}, not {expected}"
         );
     }
-    let mut sorted = diameters.clone();
+    let mut sorted = diameters;
     sorted.sort_by(f64::total_cmp);
     let (median, expected) = (sorted[10_000], (-3.0 * 1.3_f64.ln().powi(2)).exp());
     assert!(

@@ -95,6 +95,12 @@ fn image(section: &GrainsSection, number: usize, folder: &Path) -> Result<Listed
     let is_mirrored = [AxisName::X, AxisName::Y, AxisName::Z].map(is_mirrored);
     let ending = if raw.is_some() { "raw" } else { "npy" };
     let body = VoxelBody { image: read, first, used, is_mirrored, phase };
+    if let Some(place @ [x, y, z]) = body.not_finite() {
+        let problem =
+            format!("voxel [{x}, {y}, {z}] (x, y, z from 0) is {}", body.image.number(place));
+        let remedy = "give every voxel a finite number (numpy.nan_to_num), or crop the image";
+        return Err(Trouble::new(at("file"), problem, remedy));
+    }
     let attachment = Attachment::of_field(
         &at("file"),
         &format!("grains_{number}.{ending}"),
