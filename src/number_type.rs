@@ -72,9 +72,18 @@ impl NumberType {
         NumberType { is_big_endian: true, ..self }
     }
 
-    /// Whether it may be infinite, or no number.
-    pub fn is_float(self) -> bool {
-        matches!(self.kind, Kind::F16 | Kind::F32 | Kind::F64)
+    /// Whether each of its numbers is finite and has an `f64` of its own.
+    pub fn is_exact(self) -> bool {
+        !matches!(self.kind, Kind::F16 | Kind::F32 | Kind::F64 | Kind::U64 | Kind::I64)
+    }
+
+    /// Whether a number that was read is finite and may be told from its neighbours.
+    pub fn is_usable(self, number: f64) -> bool {
+        match self.kind {
+            // 2^53
+            Kind::U64 | Kind::I64 => number.abs() < 9_007_199_254_740_992.0,
+            _ => number.is_finite(),
+        }
     }
 
     /// Bytes of one.

@@ -16,7 +16,7 @@ use super::plan::part;
 use super::say::say;
 use super::{CommandError, write};
 use crate::output::{atomic, grain_list};
-use crate::packing::{Amount, Grading, Sizes};
+use crate::packing::{Amount, FOLLOWS, Grading, Sizes};
 use crate::scene::check::numbers::COEFFICIENTS;
 
 /// What `psmrt pack` is asked for; lengths in m.
@@ -39,7 +39,7 @@ pub struct PackRequest {
     pub largest_diameter: Option<f64>,
     /// A sieve curve instead of --diameter: diameters, m, each with the share of the mass that is finer, from 0 to 1:
     /// 1e-4:0,2e-4:0.4,4e-4:1
-    #[arg(long, value_name = "M:SHARE,...", value_delimiter = ',', conflicts_with = "diameter", value_parser = sieve)]
+    #[arg(long, value_name = "M:SHARE,...", value_delimiter = ',', conflicts_with_all = ["diameter", "largest_diameter"], value_parser = sieve)]
     pub grading: Vec<(f64, f64)>,
     /// Number of grains
     #[arg(long, value_name = "N")]
@@ -189,7 +189,16 @@ fn radii(request: &PackRequest) -> Result<Vec<f64>, CommandError> {
     if !request.grading.is_empty() {
         let grading = Grading::new(request.grading.clone())
             .map_err(|problem| wrong(format!("--grading: {problem}")))?;
-        return grading.radii(amount, request.seed).ok_or_else(none);
+        let (radii, scale) = grading.radii(amount, request.seed).ok_or_else(none)?;
+        if (scale - 1.0).abs() > FOLLOWS {
+            return Err(wrong(format!(
+                "--grading: {} grains do not follow so wide a curve: their diameters come out {:.0} % off; take more, or cut its \
+                 coarse end off",
+                radii.len(),
+                100.0 * (scale - 1.0).abs()
+            )));
+        }
+        return Ok(radii);
     }
     let Some(low) = request.diameter else {
         return Err(wrong("give --diameter, in m, or --grading".to_owned()));

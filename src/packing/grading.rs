@@ -10,6 +10,12 @@ use super::Amount;
 const SIEVES: i32 = 60;
 const DEVIATIONS: f64 = 3.0;
 
+/// Diameters further apart are no mixture that could be computed.
+const WIDEST: f64 = 1e3;
+
+/// How far the diameters of the grains may be off the curve.
+pub const FOLLOWS: f64 = 0.02;
+
 /// A sieve curve. Between two sieves the mass is evenly distributed over the logarithm of the diameter, a straight line on the
 /// paper on which sieve curves are drawn; where two have the same diameter, that part of the mass has it.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +44,18 @@ impl Grading {
             return Err(format!(
                 "{:e} m, {} comes after {:e} m, {}: diameters and shares must not fall",
                 pair[1].0, pair[1].1, pair[0].0, pair[0].1
+            ));
+        }
+        // Sieves that nothing stays on, and finer ones than any grain.
+        let first = points.iter().rposition(|(_, finer)| *finer == 0.0).unwrap_or(0);
+        let last = points.iter().position(|(_, finer)| *finer == 1.0).unwrap_or(points.len() - 1);
+        let points = points[first..=last].to_vec();
+        let [(low, _), .., (high, _)] = points[..] else {
+            return Err("all of it has one diameter: use `diameter`".to_owned());
+        };
+        if high / low > WIDEST {
+            return Err(format!(
+                "its diameters go from {low:e} to {high:e} m; a factor of {WIDEST} is the limit"
             ));
         }
         Ok(Grading { points })
@@ -97,8 +115,10 @@ impl Grading {
     }
 
     /// Radii in no order; `None` if there would be none, or too many. One grain is taken from each of as many equal parts of the
-    /// curve by number, so that few already follow it. Of a volume all are scaled a little, so that they have it.
-    pub fn radii(&self, amount: Amount, seed: u64) -> Option<Vec<f64>> {
+    /// curve by number, so that few already follow it. Of a volume all are scaled a little, so that they have it. With the
+    /// factor by which their diameters are off the curve: of few grains under a wide one, whose coarse end is less than one
+    /// grain ([`FOLLOWS`]).
+    pub fn radii(&self, amount: Amount, seed: u64) -> Option<(Vec<f64>, f64)> {
         let counts = self.counts();
         // Of a curve of mass 1 and diameter 1: grains Σ n, volume π/6.
         let mean_volume = sphere_volume(0.5) / counts.iter().sum::<f64>();
@@ -129,12 +149,16 @@ impl Grading {
         for end in (1..count).rev() {
             radii.swap(end, random.below(end + 1));
         }
-        if let Amount::Volume { volume, .. } = amount {
-            let sum: f64 = radii.iter().map(|&radius| sphere_volume(radius)).sum();
-            let scale = (volume / sum).cbrt();
+        let sum: f64 = radii.iter().map(|&radius| sphere_volume(radius)).sum();
+        let wanted = match amount {
+            Amount::Volume { volume, .. } => volume,
+            Amount::Count(_) => count as f64 * mean_volume,
+        };
+        let scale = (wanted / sum).cbrt();
+        if let Amount::Volume { .. } = amount {
             radii.iter_mut().for_each(|radius| *radius *= scale);
         }
-        (!radii.is_empty()).then_some(radii)
+        (!radii.is_empty()).then_some((radii, scale))
     }
 }
 

@@ -10,7 +10,7 @@ pub mod periodic;
 mod sizes;
 pub mod suspension;
 
-pub use grading::{Grading, passing_diameter};
+pub use grading::{FOLLOWS, Grading, passing_diameter};
 pub use sizes::{Amount, Sizes};
 
 use psmrt_reference::grains::grain::{Grain, sphere_volume};

@@ -25,7 +25,7 @@ pub struct GrainsSection {
     /// columns in any order, `radius (m)` instead of the diameter if you like; each further line is a
     /// grain. Free grains may have `velocity_x (m/s)` to `velocity_z (m/s)` and `spin_x (rad/s)` to `spin_z (rad/s)`, as at the
     /// start. A run with free grains leaves such a list of them, `grains_at_end.csv`. A dump of LAMMPS or LIGGGHTS in SI units (its last
-    /// frame; columns `x y z`, `radius` or `diameter`, and perhaps `density`, `vx vy vz`, `omegax omegay omegaz`; others are left out) and
+    /// frame, with places from the low corner of its box; columns `x y z`, `radius` or `diameter`, and perhaps `density`, `vx vy vz`, `omegax omegay omegaz`; others are left out) and
     /// the text of YADE's `export.text` are read as well. Blank lines and lines that begin with `#` are left out.
     pub file: Option<String>,
     /// With `voxels`: the image.

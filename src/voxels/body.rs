@@ -24,15 +24,17 @@ impl VoxelBody {
         [0, 1, 2].map(|axis| self.used[axis] * (1 + usize::from(self.is_mirrored[axis])))
     }
 
-    /// The first voxel that is used whose number is infinite or none, from the first of the image.
-    pub fn not_finite(&self) -> Option<[usize; 3]> {
-        if !self.image.is_float() {
+    /// The first voxel that is used whose number is infinite, none, or a whole one too large to be told from its neighbours; from
+    /// the first of the image.
+    pub fn unusable(&self) -> Option<[usize; 3]> {
+        let kind = self.image.number_type();
+        if kind.is_exact() {
             return None;
         }
         let [nx, ny, nz] = self.used;
         let [i, j, k] = self.first;
         let places = (0..nx * ny * nz).map(|n| [i + n % nx, j + n / nx % ny, k + n / (nx * ny)]);
-        places.into_iter().find(|&at| !self.image.number(at).is_finite())
+        places.into_iter().find(|&at| !kind.is_usable(self.image.number(at)))
     }
 
     /// The solid share of a voxel.

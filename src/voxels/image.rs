@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 use thiserror::Error;
 
@@ -41,7 +42,7 @@ pub struct Image {
     strides: [usize; 3],
     number: NumberType,
     start: usize,
-    bytes: Vec<u8>,
+    bytes: Arc<Vec<u8>>,
 }
 
 /// A file that is no image that can be used.
@@ -109,13 +110,16 @@ impl Image {
     pub fn of_npy(bytes: Vec<u8>, order: AxisOrder) -> Result<Self, ImageError> {
         let npy::Header { shape, is_fortran, number, start } = npy::header(&bytes)?;
         let [a, b, c] = shape[..] else { return Err(ImageError::Axes(shape)) };
+        if shape.contains(&0) {
+            return Err(ImageError::Empty([a, b, c]));
+        }
         // From one number to the next along each axis of the array.
         let steps = if is_fortran { [1, a, a * b] } else { [b * c, c, 1] };
         let (counts, strides) = match order {
             AxisOrder::Xyz => ([a, b, c], steps),
             AxisOrder::Zyx => ([c, b, a], [steps[2], steps[1], steps[0]]),
         };
-        Self { counts, strides, number, start, bytes }.not_empty()
+        Self { counts, strides, number, start, bytes: Arc::new(bytes) }.not_empty()
     }
 
     /// Of bare numbers; x runs fastest with [`AxisOrder::Zyx`], z with [`AxisOrder::Xyz`].
@@ -133,7 +137,7 @@ impl Image {
             AxisOrder::Zyx => [1, nx, nx * ny],
             AxisOrder::Xyz => [ny * nz, nz, 1],
         };
-        Self { counts, strides, number, start, bytes }.not_empty()
+        Self { counts, strides, number, start, bytes: Arc::new(bytes) }.not_empty()
     }
 
     fn not_empty(self) -> Result<Self, ImageError> {
@@ -145,9 +149,9 @@ impl Image {
         self.counts
     }
 
-    /// Whether a number may be infinite, or none at all.
-    pub fn is_float(&self) -> bool {
-        self.number.is_float()
+    /// The type of its numbers.
+    pub fn number_type(&self) -> NumberType {
+        self.number
     }
 
     /// The number of a voxel.
@@ -157,8 +161,8 @@ impl Image {
     }
 
     /// The file as it was read; a TIFF file or folder as a NumPy array.
-    pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+    pub fn bytes(&self) -> Arc<Vec<u8>> {
+        Arc::clone(&self.bytes)
     }
 }
 

@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
 use tiff::{ColorType, TiffError as Undecoded};
 
 use crate::input::{self, InputError, has_ending};
+use crate::machine;
 use crate::npy;
 use crate::quote;
 
@@ -60,6 +62,39 @@ pub enum TiffError {
         /// Those of the first.
         first: String,
     },
+    /// A directory that stands for several slices.
+    #[error(
+        "{file}: it has {slices} slices under one entry, as ImageJ writes large stacks; save it as an image sequence, or as bare \
+         numbers with `shape` and `numbers`"
+    )]
+    Bundled {
+        /// Its file.
+        file: String,
+        /// How many.
+        slices: u64,
+    },
+    /// A slice that is missing between two others.
+    #[error("a slice is missing between {before} and {after}")]
+    Gap {
+        /// The file before it.
+        before: String,
+        /// The file after it.
+        after: String,
+    },
+    /// More than what this machine can still hold.
+    #[error(
+        "{file}, slice {slice} (from 0): all so far make {mib:.0} MiB, more than the memory that can be had ({limit})"
+    )]
+    Memory {
+        /// Its file.
+        file: String,
+        /// Its number there.
+        slice: usize,
+        /// MiB with this slice.
+        mib: f64,
+        /// What limits it.
+        limit: String,
+    },
     /// A folder without slices.
     #[error("there is no .tif or .tiff file in this folder")]
     NoSlices,
@@ -92,8 +127,21 @@ fn files(path: &Path) -> Result<Vec<PathBuf>, TiffError> {
     let entries = fs::read_dir(path).map_err(unread)?;
     let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>();
     let mut slices = paths.map_err(unread)?;
-    slices.retain(|slice| has_ending(slice, &["tif", "tiff"]));
-    slices.sort_by_cached_key(|slice| in_order(&slice.to_string_lossy()));
+    // Those that begin with a dot are what macOS puts beside a file.
+    let is_hidden = |slice: &PathBuf| {
+        slice.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'))
+    };
+    slices.retain(|slice| has_ending(slice, &["tif", "tiff"]) && !is_hidden(slice));
+    let order = |slice: &PathBuf| in_order(&slice.with_extension("").to_string_lossy());
+    slices.sort_by_cached_key(order);
+    for pair in slices.windows(2) {
+        let [one, two] = [order(&pair[0]), order(&pair[1])];
+        let (Some(first), Some(second)) = (one.last(), two.last()) else { continue };
+        if first.0 == second.0 && second.1 > first.1 + 1 {
+            let [before, after] = [&pair[0], &pair[1]].map(|path| quote::path(path));
+            return Err(TiffError::Gap { before, after });
+        }
+    }
     Ok(slices)
 }
 
@@ -126,6 +174,16 @@ fn in_order(name: &str) -> Vec<(String, u128)> {
     parts
 }
 
+/// The number of slices that the entry which is read stands for, if it says more than one: ImageJ's `images=N`, or the tag of SGI.
+fn bundled(decoder: &mut Decoder<Cursor<Vec<u8>>>) -> Option<u64> {
+    /// ImageDepth
+    const DEPTH: Tag = Tag::Unknown(32_997);
+    let depth = decoder.find_tag(DEPTH).ok().flatten().and_then(|depth| depth.into_u64().ok());
+    let text = decoder.get_tag_ascii_string(Tag::ImageDescription).unwrap_or_default();
+    let images = text.lines().find_map(|line| line.trim().strip_prefix("images=")?.parse().ok());
+    depth.into_iter().chain(images).find(|&slices: &u64| slices > 1)
+}
+
 /// Slices one behind the other.
 struct Stack {
     kind: Option<Kind>,
@@ -144,10 +202,11 @@ impl Stack {
             .map_err(|error| undecoded(slice, error))?
             .with_limits(Limits::unlimited());
         loop {
-            let found = decoder.colortype().and_then(|colour| {
-                let size = decoder.dimensions()?;
-                Ok((colour, size, decoder.read_image()?))
-            });
+            let size = decoder.dimensions().map_err(|error| undecoded(slice, error))?;
+            self.has_room(&file, slice, size)?;
+            let described = bundled(&mut decoder).filter(|_| slice == 0);
+            let found =
+                decoder.colortype().and_then(|colour| Ok((colour, size, decoder.read_image()?)));
             let (colour, (width, height), pixels) =
                 found.map_err(|error| undecoded(slice, error))?;
             let wrong = |pixels: String| TiffError::Pixels { file: file.clone(), slice, pixels };
@@ -169,10 +228,34 @@ impl Stack {
             }
             self.slices += 1;
             if !decoder.more_images() {
-                return Ok(());
+                return match described {
+                    Some(slices) => Err(TiffError::Bundled { file, slices }),
+                    None => Ok(()),
+                };
             }
             slice += 1;
             decoder.next_image().map_err(|error| undecoded(slice, error))?;
+        }
+    }
+
+    /// Errors if there is no memory for another slice of this size, of two bytes a number, say, and for what it is decoded from.
+    fn has_room(
+        &self,
+        file: &str,
+        slice: usize,
+        (width, height): (u32, u32),
+    ) -> Result<(), TiffError> {
+        let more = 4 * u64::from(width) * u64::from(height);
+        // The numbers are moved once, behind a header.
+        let most = self.values.len() as u64 + more;
+        match machine::available() {
+            Some(left) if left.bytes < most => Err(TiffError::Memory {
+                file: file.to_owned(),
+                slice,
+                mib: most as f64 / input::MIB as f64,
+                limit: left.limit,
+            }),
+            _ => Ok(()),
         }
     }
 

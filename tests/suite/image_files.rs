@@ -9,6 +9,7 @@ use psmrt::scene::Scene;
 use psmrt_reference::solids::Solid;
 use tiff::encoder::TiffEncoder;
 use tiff::encoder::colortype::{Gray8, Gray16, RGB8};
+use tiff::tags::Tag;
 
 use crate::cli::{Folder, psmrt_in, stderr};
 use crate::scenes::water;
@@ -197,6 +198,27 @@ fn bad_images_are_told_with_the_key_and_a_way_out() {
     encoder.write_image::<Gray8>(3, 2, &[0; 6]).unwrap();
     folder.write("unlike.tif", unlike.into_inner());
     fs::create_dir(folder.path("empty")).unwrap();
+    fs::create_dir(folder.path("gap")).unwrap();
+    folder.write("gap/s_1.tif", tiff(0..1));
+    folder.write("gap/s_3.tif", tiff(1..2));
+    let mut bundle = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bundle).unwrap();
+    let mut image = encoder.new_image::<Gray8>(2, 2).unwrap();
+    image.encoder().write_tag(Tag::ImageDescription, "ImageJ=1.53t\nimages=16\n").unwrap();
+    image.write_data(&[0; 4]).unwrap();
+    folder.write("bundle.tif", bundle.into_inner());
+    folder.write(
+        "huge.npy",
+        with_header(
+            "{'descr': '|u1', 'fortran_order': False, 'shape': (0, 4294967296, 4294967296), }\n",
+            &[],
+        ),
+    );
+    let labels = "{'descr': '<u8', 'fortran_order': False, 'shape': (2, 1, 1), }\n";
+    folder.write(
+        "labels.npy",
+        with_header(labels, &[9_007_199_254_740_993_u64.to_le_bytes(), [0; 8]].concat()),
+    );
     let stack = "file = \"stack.tif\"";
     let raw = "file = \"little.raw\", solid = [300]";
     for (image, key, told) in [
@@ -257,12 +279,12 @@ fn bad_images_are_told_with_the_key_and_a_way_out() {
         (
             format!("{stack}, solid = [300], crop_from = [5, 0, 0]"),
             "crop_from",
-            "along x the image has 5 voxels",
+            "along x the image has 5 voxels, and the part from 5 to absent is none of it",
         ),
         (
             format!("{stack}, solid = [300], crop_to = [5, 4, 4]"),
             "crop_to",
-            "along z the image has 3 voxels",
+            "along z the image has 3 voxels, and the part from absent to 4 is none of it",
         ),
         (format!("{stack}, solid = [300], corner = [4e-5, 0, 0]"), "", "out of the domain"),
         (raw.to_owned(), "shape", "bare numbers need it"),

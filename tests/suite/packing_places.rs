@@ -2,7 +2,7 @@
 
 use psmrt::packing::periodic::PeriodicPacking;
 use psmrt::packing::suspension::RandomSuspension;
-use psmrt::packing::{Amount, Grading, Packing, PackingError, Sizes, passing_diameter};
+use psmrt::packing::{Amount, FOLLOWS, Grading, Packing, PackingError, Sizes, passing_diameter};
 use psmrt_reference::lattice::Vec3;
 use std::f64::consts::PI;
 
@@ -119,7 +119,8 @@ fn suspensions_that_cannot_be_are_refused_by_name() {
 #[test]
 fn grains_by_a_sieve_curve_have_that_curve_and_that_volume() {
     let curve = Grading::new(vec![(1e-4, 0.0), (2e-4, 0.4), (4e-4, 1.0)]).unwrap();
-    let radii = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 5).unwrap();
+    let (radii, scale) = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 5).unwrap();
+    assert!((scale - 1.0).abs() < 0.01, "scaled by {scale}");
     let volume: f64 = radii.iter().map(|radius| 4.0 / 3.0 * PI * radius.powi(3)).sum();
     assert!((volume / 1e-8 - 1.0).abs() < 1e-12, "the grains have {volume:e} m3");
     let diameters: Vec<f64> = radii.iter().map(|radius| 2.0 * radius).collect();
@@ -139,22 +140,22 @@ fn grains_by_a_sieve_curve_have_that_curve_and_that_volume() {
             "{share} is finer than {found:e}, not {expected:e}"
         );
     }
-    let again = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 5).unwrap();
+    let (again, _) = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 5).unwrap();
     assert_eq!(radii, again, "the same seed gives the same sizes");
-    let others = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 6).unwrap();
+    let (others, _) = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 6).unwrap();
     assert_ne!(radii, others);
 }
 
 #[test]
 fn a_mixture_of_two_sizes_has_each_of_them_and_a_log_normal_one_its_median() {
     let mixture = Grading::new(vec![(1.0, 0.0), (1.0, 0.25), (2.0, 0.25), (2.0, 1.0)]).unwrap();
-    let radii = mixture.radii(Amount::Count(1100), 1).unwrap();
+    let (radii, _) = mixture.radii(Amount::Count(1100), 1).unwrap();
     // Of the mass a quarter: 0.25/1 to 0.75/8 by number, 8 to 3.
     let small = radii.iter().filter(|radius| (**radius - 0.5).abs() < 1e-9).count();
     let large = radii.iter().filter(|radius| (**radius - 1.0).abs() < 1e-9).count();
     assert_eq!((small, large), (800, 300));
     let curve = Grading::log_normal(1.0, 1.3).unwrap();
-    let radii = curve.radii(Amount::Count(20_000), 1).unwrap();
+    let (radii, _) = curve.radii(Amount::Count(20_000), 1).unwrap();
     let diameters: Vec<f64> = radii.iter().map(|radius| 2.0 * radius).collect();
     // Median by mass 1, 84.13 % below one factor of 1.3; by number the median is exp(-3 ln² 1.3) (Hatch & Choate 1929).
     for (share, expected) in [(0.5, 1.0), (0.841_34, 1.3), (0.158_66, 1.0 / 1.3)] {
@@ -185,6 +186,13 @@ fn a_sieve_curve_that_is_none_is_told() {
         let said = Grading::new(points.clone()).unwrap_err();
         assert!(said.contains(told), "{points:?}: {said}");
     }
+    // Nothing stays on the first sieve, and nothing is finer than the second: they are not sizes of grains.
+    let curve = Grading::new(vec![(1e-6, 0.0), (1e-4, 0.0), (2e-4, 1.0), (1e-3, 1.0)]).unwrap();
+    assert_eq!(curve.diameters(), [1e-4, 2e-4]);
+    // The coarse end is a third of the mass and less than one of ten grains.
+    let wide = Grading::new(vec![(1e-5, 0.0), (3e-4, 1.0)]).unwrap();
+    let (_, scale) = wide.radii(Amount::Count(10), 1).unwrap();
+    assert!(scale > 1.0 + FOLLOWS, "ten grains follow it but for {scale}");
     assert!(Grading::log_normal(1e-4, 1.0).unwrap_err().contains("above 1"));
 }
 

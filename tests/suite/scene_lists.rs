@@ -62,6 +62,8 @@ fn dumps_of_lammps_and_text_of_yade_give_the_same_grains() {
     for list in [
         frame(0, "1e-4") + &frame(100, "3e-4"),
         frame(100, "3e-4").replace('\n', "\r\n"),
+        // Half of the box below zero, and a blank line at the end.
+        frame(100, "-0.00018828125000000003").replace("ff\n0 1e-3", "ff\n-0.00048828125 1e-3") + "\n",
         "#format x_y_z_r\n3e-4\t2.5e-4\t2.5e-4\t1e-4\n".to_owned(),
         "#format x_y_z_r_matId\n# made by YADE\n3e-4 2.5e-4 2.5e-4 1e-4 0\n".to_owned(),
     ] {
@@ -71,6 +73,9 @@ fn dumps_of_lammps_and_text_of_yade_give_the_same_grains() {
     for (list, told) in [
         ("ITEM: TIMESTEP\n0\n".to_owned(), "without \"ITEM: ATOMS\""),
         (frame(0, "3e-4").replace(" y ", " ys "), "there is no column \"y (m)\""),
+        (frame(0, "3e-4").replace(" x ", " xs "), "scaled or unwrapped"),
+        (format!("ITEM: UNITS\nlj\n{}", frame(0, "3e-4")), "its units are \"lj\""),
+        (frame(0, "3e-4").replace("ATOMS\n1\n", "ATOMS\n2\n"), "cut off: 1 of 2"),
         (frame(0, "3e-4").replace("3e-4 ", "left "), "line 10"),
     ] {
         let said = load(&folder, &list).unwrap_err().to_string();

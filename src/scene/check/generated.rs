@@ -13,7 +13,7 @@ use super::Trouble;
 use super::contact::DEFAULT_FRICTION;
 use super::listed::{Ball, Site, check_size, size_key};
 use super::numbers::{absent, coefficient, count, needed, positive};
-use crate::packing::{Amount, Grading, Sizes};
+use crate::packing::{Amount, FOLLOWS, Grading, Sizes};
 use crate::scene::format_grains::GrainsSection;
 
 /// Above this solid fraction random places run out: grains are pushed apart instead.
@@ -166,7 +166,19 @@ fn radii(
         return Err(Trouble::new(at("count"), problem, "take fewer or smaller grains"));
     }
     let radii = match grading {
-        Some(grading) => grading.radii(amount, seed),
+        Some(grading) => match grading.radii(amount, seed) {
+            Some((radii, scale)) if (scale - 1.0).abs() > FOLLOWS => {
+                let problem = format!(
+                    "{} grains do not follow so wide a curve: their diameters come out {:.0} % off",
+                    radii.len(),
+                    100.0 * (scale - 1.0).abs()
+                );
+                let remedy =
+                    "take more grains or a larger domain, or cut the coarse end off the curve";
+                return Err(Trouble::new(size_key(section, *at), problem, remedy));
+            }
+            found => found.map(|(radii, _)| radii),
+        },
         None => Sizes { diameters: si_diameters, seed }.radii(amount),
     };
     radii.ok_or_else(|| {

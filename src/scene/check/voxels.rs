@@ -95,16 +95,16 @@ fn image(section: &GrainsSection, number: usize, folder: &Path) -> Result<Listed
     let is_mirrored = [AxisName::X, AxisName::Y, AxisName::Z].map(is_mirrored);
     let ending = if raw.is_some() { "raw" } else { "npy" };
     let body = VoxelBody { image: read, first, used, is_mirrored, phase };
-    if let Some(place @ [x, y, z]) = body.not_finite() {
+    if let Some(place @ [x, y, z]) = body.unusable() {
         let problem =
             format!("voxel [{x}, {y}, {z}] (x, y, z from 0) is {}", body.image.number(place));
-        let remedy = "give every voxel a finite number (numpy.nan_to_num), or crop the image";
+        let remedy = "give every voxel a finite number (numpy.nan_to_num), whole ones below 2^53, or crop the image";
         return Err(Trouble::new(at("file"), problem, remedy));
     }
-    let attachment = Attachment::of_field(
+    let attachment = Attachment::of_shared(
         &at("file"),
         &format!("grains_{number}.{ending}"),
-        body.image.bytes().to_vec(),
+        body.image.bytes(),
     );
     Ok(ListedImage { section: number, body, si_voxel: image.voxel, si_corner, attachment })
 }
@@ -215,11 +215,14 @@ fn cropped(
                 (first[axis], used[axis]) = (from, to - from);
             }
             _ => {
-                let key = if image.crop_to.is_some() { "crop_to" } else { "crop_from" };
+                let is_from = from.is_none_or(|from| from >= count) || image.crop_to.is_none();
+                let key = if is_from { "crop_from" } else { "crop_to" };
+                let [given_from, given_to] = [image.crop_from, image.crop_to].map(|given| {
+                    given.map_or("absent".to_owned(), |given| given[axis].to_string())
+                });
                 let problem = format!(
-                    "along {} the image has {count} voxels, 0 to {}, and nothing is left of it",
-                    AXES[axis],
-                    count - 1
+                    "along {} the image has {count} voxels, and the part from {given_from} to {given_to} is none of it",
+                    AXES[axis]
                 );
                 let remedy = format!(
                     "give `crop_from` from 0 and a larger `crop_to` of at most [{}, {}, {}]",

@@ -21,7 +21,27 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     }
     let closed = driven_axes(&scene.setup).into_iter().filter_map(|axis| closed(scene, axis));
     let ends = (0..3).filter_map(|axis| ends(scene, axis));
-    closed.chain(ends).collect()
+    coarse(scene).into_iter().chain(closed).chain(ends).collect()
+}
+
+/// Cells that are solid in part, of all that have solid: more are those of grains below some six cells across.
+const CUT: f64 = 0.8;
+
+/// A grid that is too coarse for the image.
+fn coarse(scene: &Scene) -> Option<Warning> {
+    let filled = filled(&scene.setup);
+    let with_solid = filled.iter().filter(|share| **share > 0.0).count();
+    let cut = filled.iter().filter(|share| **share > 0.0 && **share < 1.0).count();
+    let share = cut as f64 / with_solid as f64;
+    if share <= CUT {
+        return None;
+    }
+    let reason = format!(
+        "{:.0} % of the cells with solid are solid in part only: the grid is coarser than what the image shows, and neither flow \
+         nor 6 V/S, with all that rests on it, can be trusted",
+        100.0 * share
+    );
+    Some(warning(reason, "a finer grid (`domain.dx`)"))
 }
 
 /// Pores that hang on no path from end to end.
@@ -50,16 +70,16 @@ fn ends(scene: &Scene, axis: usize) -> Option<Warning> {
     }
     let filled = filled(&scene.setup);
     let step = [1, domain.cells()[0], domain.cells()[0] * domain.cells()[1]][axis];
-    let (mut inside, mut across) = (0.0, 0.0);
+    let mut between = vec![0.0; count];
     for (cell, &share) in filled.iter().enumerate() {
         let at = cell / step % count;
-        if at + 1 < count {
-            inside += f64::from((filled[cell + step] - share).abs());
-        } else {
-            across += f64::from((filled[cell - at * step] - share).abs());
-        }
+        let next = if at + 1 < count { cell + step } else { cell - at * step };
+        between[at] += f64::from((filled[next] - share).abs());
     }
-    let ratio = across * (count - 1) as f64 / inside;
+    // Planes within the same voxels are alike.
+    let (across, inside) = between.split_last()?;
+    let inside: Vec<f64> = inside.iter().copied().filter(|&differs| differs > 0.0).collect();
+    let ratio = across * inside.len() as f64 / inside.iter().sum::<f64>();
     // An image that ends before the domain does leaves nothing there that could fit.
     if ratio.is_nan() || ratio <= UNLIKE {
         return None;
