@@ -2,6 +2,7 @@
 
 Run:  python stokes.py check                  (plane channel and square duct against the exact flow)
       python stokes.py spheres.npy 1 2 3      (one image, with 1, 2 and 3 cells along each voxel edge)
+      python stokes.py spheres.npy rest 1 2   (with ends that resist the flow, as those of poromics do)
 
 Rows for independent.csv go to the standard output, remarks to the standard error. The last row is the
 value for an infinitely fine grid, by k(h) = k0 + c h^q through the last three values (h = cell width).
@@ -14,6 +15,9 @@ Velocities are on the cell faces, pressures in the cell centres. On the faces of
 normal velocity is 0; where both cells beside a face are solid, the wall is half a cell away from
 the tangential velocity of the next face (ghost value -u). The sides y and z are periodic. At the
 planes x = 0 and x = nx the pressure is given (1 and 0) and d/dx of all velocities is 0.
+With `rest` the pressure is lower than the given one by REST * u in each end plane (and higher at the
+outlet), and the tangential velocities are held back there, as by a wall; k then comes from the mean
+pressures inside the end planes. This is only for the comparison with poromics (see other_code.py).
 The equations form one symmetric system, which is solved by the MINRES method.
 Permeability: k = viscosity * U * L / pressure difference, where U is the flux over the whole cross-section.
 """
@@ -26,9 +30,10 @@ from numba import njit
 from scipy.sparse import coo_matrix
 
 CLEAR = 6   # clear voxels at each x end of an image
+REST = 6    # the jump of the density by 3 J in poromics is a pressure 6 u, viscosity and cell width 1
 
 
-def build(solid):
+def build(solid, rest=False):
     """Matrix [[A, G], [G^T, 0]], right-hand side and the numbers of the unknowns (-1 = none)."""
     nx, ny, nz = solid.shape
     pore = ~solid.astype(bool)
@@ -79,6 +84,10 @@ def build(solid):
             lower = np.roll(pnum, 1, comp)
             add(num, pnum, 1.0), add(pnum, num, 1.0)
             add(num, lower, -1.0), add(lower, num, -1.0)
+    if rest:
+        for n, resistance in zip(number, (REST, 2, 2)):
+            for plane in (n[0], n[-1]):
+                diagonal[plane[plane >= 0]] += resistance
     v = np.arange(pnum[pore].min())
     rows.append(v), cols.append(v), vals.append(diagonal[v])
     matrix = coo_matrix((np.concatenate(vals).astype(np.float32), (np.concatenate(rows), np.concatenate(cols))),
@@ -116,9 +125,9 @@ def update(x, v, w1, w2, a, b, c, phi):
         x[i] += phi * w1[i]
 
 
-def solve(solid, start=None, tolerance=1e-6, every=50, most=20000):
+def solve(solid, start=None, rest=False, tolerance=1e-6, every=50, most=20000):
     """Flux through the planes x, in cells^2 per unit (pressure / viscosity), and the fields."""
-    matrix, rhs, number, diagonal = build(solid)
+    matrix, rhs, number, diagonal = build(solid, rest)
     ptr, idx, val = matrix.indptr, matrix.indices, matrix.data
     planes = number[0]
     inv = np.where(diagonal > 0, 1 / np.maximum(diagonal, 1), 5.0)  # preconditioner
@@ -179,7 +188,7 @@ def order(k, h):
     return k[2] - (k[1] - k[2]) / ((h[1] / h[2])**low - 1), low
 
 
-def permeability(image, cells, fields=None, before=1):
+def permeability(image, cells, fields=None, before=1, rest=False):
     """k in voxels^2 with `cells` cells along each voxel edge."""
     solid = image.astype(bool)
     for axis in range(3):
@@ -187,8 +196,9 @@ def permeability(image, cells, fields=None, before=1):
     length = (image.shape[0] - 2 * CLEAR) * cells
     area = solid.shape[1] * solid.shape[2]
     start = refined_start(fields, before, cells) if fields else None
-    flux, spread, iterations, fields = solve(solid, start)
-    return flux / area * length / cells**2, spread, iterations, fields
+    flux, spread, iterations, fields = solve(solid, start, rest)
+    difference = 1 - 2 * REST * flux / area if rest else 1
+    return flux / area * length / difference / cells**2, spread, iterations, fields
 
 
 def check():
@@ -205,17 +215,17 @@ def check():
                   f"spread of the flux {spread:.0e}, {it} iterations")
 
 
-def main(path, cells):
+def main(path, cells, rest=False):
     image = np.load(path)
     name, porosity = Path(path).stem, 1 - image[CLEAR:-CLEAR].mean()
 
     def row(c, k):
-        print(f"{name},finite_differences,{c},{k:.6f},{porosity:.4f}", flush=True)
+        print(f"{name},finite_differences{'_resting_ends' if rest else ''},{c},{k:.6f},{porosity:.4f}", flush=True)
 
     ks, fields, before = [], None, 1
     for c in cells:
         t = time.time()
-        k, spread, it, fields = permeability(image, c, fields, before)
+        k, spread, it, fields = permeability(image, c, fields, before, rest)
         before = c
         ks.append(k)
         print(f"{name}, {c} cells: spread of the flux {spread:.0e}, {it} iterations, {time.time() - t:.0f} s",
@@ -231,4 +241,4 @@ if __name__ == "__main__":
     if sys.argv[1] == "check":
         check()
     else:
-        main(sys.argv[1], [int(c) for c in sys.argv[2:]])
+        main(sys.argv[1], [int(c) for c in sys.argv[2:] if c != "rest"], "rest" in sys.argv)
