@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::Path;
 
+use psmrt::advice::estimate::warnings;
 use psmrt::engine::{Block, EngineName, open};
 use psmrt::output::npy;
 use psmrt::scene::Scene;
@@ -229,6 +230,40 @@ fn a_path_through_the_pores_ends_where_it_began_a_period_further_on() {
             );
         }
     }
+}
+
+#[test]
+fn ends_of_an_image_that_do_not_fit_and_a_grid_that_is_too_coarse_are_told() {
+    let folder = Folder::new("image_warnings");
+    // Half a ball at x = 0, and nothing at the other end.
+    let half = |[x, y, z]: [usize; 3]| {
+        let squares = [x as f64 + 0.5, y as f64 - 5.5, z as f64 - 5.5].map(|along| along * along);
+        f64::from(u8::from(squares.iter().sum::<f64>() < 20.0))
+    };
+    folder.write("half.npy", array([12; 3], half));
+    let told = |cells: usize, more: &str| {
+        let grains = format!(
+            "[[grains]]\nkind = \"voxels\"\nimage = {{ file = \"half.npy\", voxel = 1e-5, solid = [1]{more} }}\n"
+        );
+        let dx = 12e-5 / cells as f64;
+        let text = crate::scenes::water([cells; 3], dx, &format!("{grains}[stop]\nsteps = 1\n"));
+        let text = if more.is_empty() {
+            text
+        } else {
+            text.replacen(&format!("cells = {:?}\n", [cells; 3]), "", 1)
+        };
+        let scene = Scene::load(&folder.write("scene.toml", text), &[])
+            .unwrap_or_else(|error| panic!("{error}"));
+        let all = warnings(&scene);
+        let has = |what: &str| all.iter().any(|warning| warning.reason.contains(what));
+        [has("periodic face along x"), has("periodic face along y"), has("solid in part only")]
+    };
+    // Whatever the grid, as long as it resolves the image.
+    for cells in [12, 24] {
+        assert_eq!(told(cells, ""), [true, false, false], "on {cells} cells");
+    }
+    assert_eq!(told(12, ", mirror = [\"x\"]"), [false; 3]);
+    assert!(told(3, "")[2], "on cells of four voxels");
 }
 
 #[test]

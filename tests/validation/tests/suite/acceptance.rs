@@ -98,7 +98,7 @@ fn permeability_holds_its_claims() {
 
 #[test]
 fn images_of_porous_bodies_hold_their_claims() {
-    holds("images", &mut Budget::kernel(150_000_000));
+    holds("images", &mut Budget::kernel(300_000_000));
 }
 
 #[test]
