@@ -157,7 +157,7 @@ fn golden_scenes() -> Vec<PathBuf> {
 
 /// Of each golden scene the state after a few steps on the oracle, made once for all engines.
 static ON_THE_ORACLE: LazyLock<Vec<(PathBuf, Scene, Vec<CellState>)>> = LazyLock::new(|| {
-    let mut budget = Budget::oracle(3_400_000);
+    let mut budget = Budget::oracle(3_600_000);
     let mut all = Vec::new();
     for path in golden_scenes() {
         let scene = Scene::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
@@ -179,7 +179,7 @@ static ON_THE_ORACLE: LazyLock<Vec<(PathBuf, Scene, Vec<CellState>)>> = LazyLock
 const GOLDEN_STEPS: u64 = 8;
 
 fn every_golden_scene_starts_and_steps_as_on_the_oracle(engine: EngineName) {
-    let mut budget = Budget::kernel(3_400_000);
+    let mut budget = Budget::kernel(3_600_000);
     for (path, scene, expected) in ON_THE_ORACLE.iter() {
         budget.spend(GOLDEN_STEPS * expected.len() as u64);
         let mut engine = opened(engine, scene);
