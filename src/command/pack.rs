@@ -187,7 +187,7 @@ fn radii(request: &PackRequest) -> Result<Vec<f64>, CommandError> {
         ))
     };
     if !request.grading.is_empty() {
-        let grading = Grading::new(request.grading.clone())
+        let grading = Grading::new(&request.grading)
             .map_err(|problem| wrong(format!("--grading: {problem}")))?;
         let (radii, scale) = grading.radii(amount, request.seed).ok_or_else(none)?;
         if (scale - 1.0).abs() > FOLLOWS {

@@ -26,7 +26,7 @@ pub struct Grading {
 
 impl Grading {
     /// From diameters and the shares of the mass that are finer. Errors, in words, unless they make a curve.
-    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, String> {
+    pub fn new(points: &[(f64, f64)]) -> Result<Self, String> {
         let (Some(first), Some(last)) = (points.first(), points.last()) else {
             return Err("it has no sieves".to_owned());
         };
@@ -77,7 +77,8 @@ impl Grading {
             .collect();
         let [low, high] = [-DEVIATIONS, DEVIATIONS].map(normal);
         let share = |(d, share): (f64, f64)| (d, ((share - low) / (high - low)).clamp(0.0, 1.0));
-        Self::new(edges.into_iter().map(share).collect())
+        let points: Vec<(f64, f64)> = edges.into_iter().map(share).collect();
+        Self::new(&points)
     }
 
     /// Smallest and largest diameter.

@@ -118,7 +118,7 @@ fn suspensions_that_cannot_be_are_refused_by_name() {
 
 #[test]
 fn grains_by_a_sieve_curve_have_that_curve_and_that_volume() {
-    let curve = Grading::new(vec![(1e-4, 0.0), (2e-4, 0.4), (4e-4, 1.0)]).unwrap();
+    let curve = Grading::new(&[(1e-4, 0.0), (2e-4, 0.4), (4e-4, 1.0)]).unwrap();
     let (radii, scale) = curve.radii(Amount::Volume { volume: 1e-8, most: 100_000 }, 5).unwrap();
     assert!((scale - 1.0).abs() < 0.01, "scaled by {scale}");
     let volume: f64 = radii.iter().map(|radius| 4.0 / 3.0 * PI * radius.powi(3)).sum();
@@ -148,7 +148,7 @@ fn grains_by_a_sieve_curve_have_that_curve_and_that_volume() {
 
 #[test]
 fn a_mixture_of_two_sizes_has_each_of_them_and_a_log_normal_one_its_median() {
-    let mixture = Grading::new(vec![(1.0, 0.0), (1.0, 0.25), (2.0, 0.25), (2.0, 1.0)]).unwrap();
+    let mixture = Grading::new(&[(1.0, 0.0), (1.0, 0.25), (2.0, 0.25), (2.0, 1.0)]).unwrap();
     let (radii, _) = mixture.radii(Amount::Count(1100), 1).unwrap();
     // Of the mass a quarter: 0.25/1 to 0.75/8 by number, 8 to 3.
     let small = radii.iter().filter(|radius| (**radius - 0.5).abs() < 1e-9).count();
@@ -183,14 +183,14 @@ fn a_sieve_curve_that_is_none_is_told() {
         (vec![(2e-4, 0.0), (1e-4, 1.0)], "must not fall"),
         (vec![(0.0, 0.0), (1e-4, 1.0)], "above 0"),
     ] {
-        let said = Grading::new(points.clone()).unwrap_err();
+        let said = Grading::new(&points).unwrap_err();
         assert!(said.contains(told), "{points:?}: {said}");
     }
     // Nothing stays on the first sieve, and nothing is finer than the second: they are not sizes of grains.
-    let curve = Grading::new(vec![(1e-6, 0.0), (1e-4, 0.0), (2e-4, 1.0), (1e-3, 1.0)]).unwrap();
+    let curve = Grading::new(&[(1e-6, 0.0), (1e-4, 0.0), (2e-4, 1.0), (1e-3, 1.0)]).unwrap();
     assert_eq!(curve.diameters(), [1e-4, 2e-4]);
     // The coarse end is a third of the mass and less than one of ten grains.
-    let wide = Grading::new(vec![(1e-5, 0.0), (3e-4, 1.0)]).unwrap();
+    let wide = Grading::new(&[(1e-5, 0.0), (3e-4, 1.0)]).unwrap();
     let (_, scale) = wide.radii(Amount::Count(10), 1).unwrap();
     assert!(scale > 1.0 + FOLLOWS, "ten grains follow it but for {scale}");
     assert!(Grading::log_normal(1e-4, 1.0).unwrap_err().contains("above 1"));

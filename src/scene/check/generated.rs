@@ -192,9 +192,10 @@ fn radii(
 fn grading(section: &GrainsSection, place: &Site) -> Result<Option<Grading>, Trouble> {
     let at = &place.at;
     if let Some(rows) = &section.grading {
-        let points = rows.iter().map(|&[diameter, finer]| (diameter, finer)).collect();
+        let points: Vec<(f64, f64)> =
+            rows.iter().map(|&[diameter, finer]| (diameter, finer)).collect();
         let remedy = "rows [diameter (m), share of the mass that is finer], for example [[1e-4, 0], [2e-4, 0.4], [4e-4, 1]]";
-        let made = Grading::new(points);
+        let made = Grading::new(&points);
         return made.map(Some).map_err(|problem| Trouble::new(at("grading"), problem, remedy));
     }
     let Some([median, deviation]) = section.log_normal else { return Ok(None) };
