@@ -29,6 +29,7 @@ mod mirrors;
 pub(crate) mod neighbours;
 pub(crate) mod numbers;
 pub mod permeability;
+mod placed_images;
 pub mod record_kinds;
 pub mod records;
 mod signal_file;
@@ -88,7 +89,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     setup.body_force = body_force.as_ref().map(|signal| signal.at(0.0));
     let initial = initial::initial(file.initial.as_ref(), &setup.domain, &units, &mut files)?;
     let mut list = GrainList::new(&file.grains, &mut files, &setup.domain, &units)?;
-    voxels::add(&images, &mut list, &mut files, (&setup.domain, &units))?;
+    placed_images::add(&images, &mut list, &mut files, (&setup.domain, &units))?;
     let gravity = file.gravity.as_ref().map(|section| {
         acceleration_in_time("gravity.acceleration", &section.acceleration, &units, &mut files)
     });
@@ -112,7 +113,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     let solids = (list.solids(), moves);
     setup.solid_phase = solid::solid_phase(file.solid.as_ref(), solids, free.is_some())?;
     setup.check().map_err(|error| setup_trouble(&error))?;
-    voxels::check_pores(&images, &setup)?;
+    placed_images::check_pores(&images, &setup)?;
     implicit::check(&setup, free.as_ref())?;
     let records = records::records(&file.records, &setup, free.as_ref(), &units)?;
     let stop = stop::stop(&file.stop, &records, &units)?;

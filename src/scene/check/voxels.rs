@@ -1,19 +1,9 @@
-//! Images of solids: read before the domain is known, since it may be taken from them, and put into it afterwards.
+//! Images of solids: read before the domain is known, since it may be taken from them. (Put into it by `placed_images.rs`.)
 
 use std::path::Path;
 
-use psmrt_reference::coverage::CoverageRule;
-use psmrt_reference::domain::Domain;
-use psmrt_reference::lattice::Vec3;
-use psmrt_reference::setup::Setup;
-use psmrt_reference::solids::{Shape, Solid};
-
 use super::grain_kinds::foreign_keys;
-use super::grains::GrainList;
-use super::in_time::Files;
-use super::neighbours::MAX_OVERLAP;
 use super::numbers::{absent, finite, needed, positive};
-use super::permeability::driven_axes;
 use super::{Attachment, Trouble};
 use crate::input::has_ending;
 use crate::number_type::NumberType;
@@ -21,15 +11,9 @@ use crate::quote;
 use crate::scene::format_grains::{GrainsKind, GrainsSection, MotionKind};
 use crate::scene::format_run::AxisName;
 use crate::scene::format_voxels::{AxisOrderName, ByteOrderName, ImageSection};
-use crate::units::Units;
 use crate::voxels::body::VoxelBody;
 use crate::voxels::image::{AxisOrder, Image, RawLayout};
 use crate::voxels::phase::Phase;
-use crate::voxels::pores::{pores, solid_cells};
-use crate::voxels::shares::{Placed, solid_shares};
-
-/// How far an image may reach out of the domain, cells: what rounding of lengths leaves.
-const REACHES_OUT: f64 = 1e-6;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -37,10 +21,14 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(super) struct ListedImage {
     /// Number of the section.
     pub section: usize,
-    body: VoxelBody,
-    si_voxel: f64,
-    si_corner: [f64; 3],
-    attachment: Attachment,
+    /// The image, cropped and mirrored.
+    pub body: VoxelBody,
+    /// Edge of a voxel, m.
+    pub si_voxel: f64,
+    /// Where its lowest corner lies, m.
+    pub si_corner: [f64; 3],
+    /// What a run keeps a copy of.
+    pub attachment: Attachment,
 }
 
 /// The images of all sections; files are looked for in `folder`.
@@ -233,171 +221,4 @@ fn cropped(
         }
     }
     Ok([first, used])
-}
-
-impl ListedImage {
-    fn key(&self, key: &str) -> String {
-        format!("grains[{}].image{}{key}", self.section, if key.is_empty() { "" } else { "." })
-    }
-
-    /// Its lengths, m.
-    pub fn si_size(&self) -> [f64; 3] {
-        self.body.counts().map(|count| count as f64 * self.si_voxel)
-    }
-
-    /// It as a solid of the domain.
-    fn solid(&self, domain: &Domain, units: &Units) -> Result<Solid, Trouble> {
-        let cells = domain.cells();
-        let corner = self.si_corner.map(|place| place / units.si_dx);
-        let voxel = self.si_voxel / units.si_dx;
-        let counts = self.body.counts();
-        for axis in 0..3 {
-            let [low, high] = [corner[axis], corner[axis] + counts[axis] as f64 * voxel];
-            if low < -REACHES_OUT || high > cells[axis] as f64 + REACHES_OUT {
-                let [si_low, si_high] = [low, high].map(|place| place * units.si_dx);
-                let problem = format!(
-                    "along {} it reaches from {si_low:.6e} to {si_high:.6e} m ({} voxels of {:e} m), out of the domain (0 to \
-                     {:.6e} m)",
-                    AXES[axis],
-                    counts[axis],
-                    self.si_voxel,
-                    cells[axis] as f64 * units.si_dx
-                );
-                let remedy = "crop it (`crop_from`, `crop_to`), move it (`corner`), or leave `domain.size` and \
-                              `domain.cells` out: the domain is as large as the image then";
-                return Err(Trouble::new(self.key(""), problem, remedy));
-            }
-        }
-        let fractions = solid_shares(&self.body, &Placed { corner, voxel, cells });
-        if fractions.is_empty() {
-            let problem = format!("no voxel of it is solid: {}", self.numbers_in_words());
-            let remedy = "say which numbers are solid by `solid`, `solid_above` or `grey`";
-            return Err(Trouble::new(self.key(""), problem, remedy));
-        }
-        if fractions.len() == domain.cell_count()
-            && fractions.iter().all(|(_, share)| *share == 1.0)
-        {
-            let problem =
-                format!("all of it is solid, no pore is left: {}", self.numbers_in_words());
-            let remedy = "say which numbers are solid by `solid`, `solid_above` or `grey`";
-            return Err(Trouble::new(self.key(""), problem, remedy));
-        }
-        let middle = [0, 1, 2].map(|axis| corner[axis] + 0.5 * counts[axis] as f64 * voxel);
-        Ok(Solid { centre: Vec3::from(middle), ..Solid::fixed_cells(fractions) })
-    }
-
-    /// What numbers it has.
-    fn numbers_in_words(&self) -> String {
-        let [nx, ny, nz] = self.body.used;
-        let mut found: Vec<f64> = Vec::new();
-        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for z in 0..nz {
-            for y in 0..ny {
-                for x in 0..nx {
-                    let [i, j, k] = self.body.first;
-                    let number = self.body.image.number([i + x, j + y, k + z]);
-                    (least, most) = (least.min(number), most.max(number));
-                    if found.len() < 6 && !found.contains(&number) {
-                        found.push(number);
-                    }
-                }
-            }
-        }
-        if found.len() < 6 {
-            found.sort_by(f64::total_cmp);
-            let list: Vec<String> = found.iter().map(f64::to_string).collect();
-            format!("its numbers are {}", list.join(", "))
-        } else {
-            format!("its numbers lie between {least} and {most}")
-        }
-    }
-}
-
-/// Puts the images behind the spheres of a list, and keeps their files. Errors if one does not fit.
-pub(super) fn add(
-    images: &[ListedImage],
-    list: &mut GrainList,
-    files: &mut Files,
-    (domain, units): (&Domain, &Units),
-) -> Result<(), Trouble> {
-    if images.is_empty() {
-        return Ok(());
-    }
-    if let Some(grain) = list.grains.iter().find(|grain| grain.motion != MotionKind::Fixed) {
-        let problem = "a grain moves, and nothing keeps it out of what the image shows";
-        let remedy = "leave out `motion` of the grains beside an image, or the image";
-        return Err(grain.trouble(problem.to_owned(), remedy));
-    }
-    let bodies = images.iter().map(|image| image.solid(domain, units));
-    let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
-    apart(images, &bodies, &list.solids(), domain)?;
-    list.bodies = bodies;
-    files.attachments.extend(images.iter().map(|image| image.attachment.clone()));
-    Ok(())
-}
-
-/// Errors if images overlap each other or spheres.
-fn apart(
-    images: &[ListedImage],
-    bodies: &[Solid],
-    spheres: &[Solid],
-    domain: &Domain,
-) -> Result<(), Trouble> {
-    let mut filled = vec![0.0; domain.cell_count()];
-    for (image, body) in images.iter().zip(bodies) {
-        let Shape::Cells { fractions } = &body.shape else { continue };
-        for &(cell, share) in fractions {
-            filled[cell] += share;
-            if filled[cell] > 1.0 + 1e-9 {
-                let [x, y, z] = domain.coordinates(cell);
-                let problem = format!("it overlaps another image in cell [{x}, {y}, {z}]");
-                let remedy = "move one of them (`corner`), or crop it";
-                return Err(Trouble::new(image.key(""), problem, remedy));
-            }
-        }
-    }
-    for (number, sphere) in spheres.iter().enumerate() {
-        let covered = sphere.covered(domain, CoverageRule::Exact);
-        let both: f64 =
-            covered.iter().map(|at| (filled[at.cell] + at.epsilon - 1.0).max(0.0)).sum();
-        if both > MAX_OVERLAP * sphere.volume() {
-            let problem = format!(
-                "{:.1} % of grain {number} (from 0) lie in it; {:.0} % is the limit",
-                100.0 * both / sphere.volume(),
-                100.0 * MAX_OVERLAP
-            );
-            return Err(Trouble::new(images[0].key(""), problem, "move one of them"));
-        }
-    }
-    Ok(())
-}
-
-/// Errors if no pore between images lets fluid through along an axis along which it is driven.
-pub(super) fn check_pores(images: &[ListedImage], setup: &Setup) -> Result<(), Trouble> {
-    let Some(image) = images.first() else { return Ok(()) };
-    for axis in driven_axes(setup) {
-        let found = pores(&setup.domain, &solid_cells(setup), axis);
-        if found.through > 0 {
-            continue;
-        }
-        let (how, remedy) = match setup.domain.is_periodic(axis) {
-            true => (
-                "comes back to where it began a period further on",
-                format!(
-                    "put its mirror image behind it (`mirror = [\"{}\"]`), so that its ends fit to each other; ",
-                    AXES[axis]
-                ),
-            ),
-            false => ("leads from end to end", String::new()),
-        };
-        let problem = format!(
-            "no pore lets fluid through along {}, along which it is driven: the image has {} cells that are not solid \
-             throughout, and no path between them {how}",
-            AXES[axis], found.all
-        );
-        let remedy =
-            remedy + "look at what is solid (`solid`, `solid_above`, `grey`) and at `axes`";
-        return Err(Trouble::new(image.key(""), problem, remedy));
-    }
-    Ok(())
 }
