@@ -19,10 +19,8 @@ use psmrt_reference::solids::{Shape, Solid};
 
 use crate::scene::Scene;
 use crate::scene::check::neighbours::MAX_OVERLAP;
+use crate::scene::names::FACE_KEYS;
 use followed::Followed;
-
-/// Keys of the faces, `FACES[axis][side]`.
-const FACES: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
 
 /// The end of a way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -173,7 +171,7 @@ pub fn leavings(scene: &Scene) -> Vec<(usize, &'static str, u64)> {
     let open = |passage: &Passage| closed(&faces.axis(passage.axis)[passage.side]).is_none();
     let all = passages(scene, 0, at_start(scene)).into_iter().filter(open);
     let in_time = all.filter(|passage| passage.step <= scene.stop.steps);
-    in_time.map(|p| (p.grain, FACES[p.axis][p.side], p.step)).collect()
+    in_time.map(|p| (p.grain, FACE_KEYS[p.axis][p.side], p.step)).collect()
 }
 
 /// Looks ahead along the ways of prescribed spheres.
@@ -210,7 +208,7 @@ impl Lookout {
         let at_face = passages(scene, start, solids).into_iter().filter_map(|passage| {
             let Passage { grain, axis, side, step } = passage;
             let kind = closed(&faces.axis(axis)[side])?;
-            let obstacle = Obstacle::Face { name: FACES[axis][side], kind };
+            let obstacle = Obstacle::Face { name: FACE_KEYS[axis][side], kind };
             Some(Meeting { step, grain, obstacle })
         });
         let at_face = at_face.min_by_key(|meeting| meeting.step);

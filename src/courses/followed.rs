@@ -7,7 +7,7 @@ use psmrt_reference::grains::setup::PeriodicBox;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
-use super::{FACES, MAX_OVERLAP, Meeting, Obstacle, closed, first_step_beyond};
+use super::{FACE_KEYS, MAX_OVERLAP, Meeting, Obstacle, closed, first_step_beyond};
 use crate::in_time::Prescribed;
 use crate::scene::Scene;
 
@@ -125,7 +125,7 @@ impl Followed {
                 if let Some(kind) =
                     face.filter(|_| depth > 2.0 * radius * MAX_OVERLAP && outwards > 0.0)
                 {
-                    let obstacle = Obstacle::Face { name: FACES[axis][side], kind };
+                    let obstacle = Obstacle::Face { name: FACE_KEYS[axis][side], kind };
                     return Some(Meeting {
                         step: self.step,
                         grain: self.numbers[sphere],

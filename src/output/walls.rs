@@ -7,9 +7,7 @@ use psmrt_reference::lattice::Vec3;
 
 use crate::engine::{Block, Coupled};
 use crate::scene::Scene;
-
-/// The names of the faces, as scenes spell them, in the order of the rows: by axis, then side.
-const NAMES: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
+use crate::scene::names::FACE_KEYS;
 
 /// The forces on one face, N: of the fluid, no number where the fluid flows through it; and of the grains.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +33,7 @@ pub fn forces(scene: &Scene, engine: &Coupled) -> Vec<FaceForces> {
             }
             let fluid = of_fluid(domain, engine, (axis, side), &face);
             all.push(FaceForces {
-                face: NAMES[axis][side],
+                face: FACE_KEYS[axis][side],
                 fluid: (fluid * scene.units.si_force()).into(),
                 grains: (of_grains[axis][side] * scene.units.si_force()).into(),
             });

@@ -13,7 +13,7 @@ use super::triple::Triple;
 #[serde(deny_unknown_fields)]
 pub struct GrainsSection {
     /// `sphere` (one grain), `csv` (a list in a file), `array` (a regular array that fills the domain),
-    /// `random` (a random suspension), `bed` (grains that have settled onto the face `z_low`) or `voxels` (solids of any
+    /// `random` (a random suspension), `bed` (grains that have settled onto the face `z_low`, or above it) or `voxels` (solids of any
     /// shape, as an image shows them; they are fixed).
     pub kind: GrainsKind,
     /// With `sphere`: its centre, m.
@@ -59,6 +59,10 @@ pub struct GrainsSection {
     pub gap: Option<f64>,
     /// With `bed`: friction while it settles, 0 (the densest packing) to 10; 0.5 where absent.
     pub packing_friction: Option<f64>,
+    /// With `bed`: height of the floor that it settles onto above the face `z_low`, m, as of a sieve that lets fluid pass; 0 where absent.
+    /// Leave a diameter above a velocity inlet: what enters under a grain that touches the inlet has no way out. Not
+    /// with free grains, which would fall from there.
+    pub floor: Option<f64>,
     /// `fixed` (the default), `prescribed` (moves with the given `velocity` and angular velocity `spin`) or `free`
     /// (moves under hydrodynamic force, contacts and gravity). A prescribed sphere re-enters at periodic faces and may
     /// leave through `pressure` and `free_outflow` faces; if it overlaps any other face, or a sphere that is not free,

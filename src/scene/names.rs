@@ -2,6 +2,10 @@
 
 use super::{Attachment, Record, What};
 
+/// Keys of the faces, `FACE_KEYS[axis][side]`.
+pub(crate) const FACE_KEYS: [[&str; 2]; 3] =
+    [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
+
 /// Lock of a run's folder.
 pub const LOCK: &str = "run.lock";
 

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use crate::common::Budget;
 use crate::scenes::{saved, scene, water};
 use psmrt::advice::estimate::{Warning, warnings};
-use psmrt::engine::{EngineName, open};
+use psmrt::engine::{Block, EngineName, open};
 use psmrt::scene::Scene;
 use psmrt_reference::domain::Face;
 use psmrt_reference::lattice::CS2;
@@ -241,4 +241,35 @@ fn memory_of_a_non_reflecting_face_is_four_crossings_of_sound_or_what_the_scene_
         face => panic!("{face:?}"),
     }
     assert_eq!(memory("non_reflecting = false"), Face::Pressure { density: 1.0 });
+}
+
+#[test]
+fn sphere_that_touches_the_inlet_is_warned_of_and_presses_the_fluid_beneath_it_together() {
+    // A sphere of 16 cells, pressed into the inlet by a tenth of a cell, or a diameter clear of it.
+    let text = |centre: f64| {
+        let rest = format!(
+            "[faces]\nz_low = {{ kind = \"velocity_inlet\", velocity = [0.0, 0.0, 0.0375] }}\n\
+             z_high = {{ kind = \"pressure\", pressure = 0.0 }}\n\
+             [initial]\nvelocity = [0.0, 0.0, 0.0375]\n\
+             [solid]\noperator = \"bounce_back\"\n\
+             [[grains]]\nkind = \"sphere\"\ndiameter = 1.6e-4\ncentre = [1.2e-4, 1.2e-4, {centre:e}]\n\
+             [stop]\nsteps = 3000\n"
+        );
+        water([24, 24, 48], 1e-5, &rest).replace("tau = 0.8", "tau = 0.51")
+    };
+    let densest = |text: &str| {
+        let scene = scene(text);
+        let mut engine = open(EngineName::Cpu, &scene, None, false).unwrap();
+        engine.step(3000).unwrap();
+        let cells = engine.cells(Block::whole(&scene.setup.domain));
+        cells.iter().map(|cell| cell.density).fold(0.0, f64::max)
+    };
+    let (touching, clear) = (text(7.9e-5), text(2.4e-4));
+    assert!(warned(&scene(&touching), "the velocity inlet z_low").is_some());
+    assert_eq!(warned(&scene(&clear), "the velocity inlet z_low"), None);
+    // Lubrication, a hundredth of the density at a cell from the contact, rising with the fourth power of the distance: more than
+    // ten times the 1 % that a clear sphere's own drag and the stream's head make at most.
+    let [touching, clear] = [touching, clear].map(|text| densest(&text) - 1.0);
+    assert!(touching > 0.1, "beneath a sphere that touches, the density rises by {touching:e}");
+    assert!(clear < 0.01, "with clear fluid above the inlet the density rises by {clear:e}");
 }

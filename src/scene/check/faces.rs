@@ -12,10 +12,8 @@ use super::{Trouble, in_time, velocity};
 use crate::in_time::{FaceSignal, Signal};
 use crate::scene::format::{FaceKind, FaceSection, FacesSection};
 use crate::scene::format_time::VectorInTime;
+use crate::scene::names::FACE_KEYS;
 use crate::units::Units;
-
-/// Keys of the faces, `KEYS[axis][side]`.
-const KEYS: [[&str; 2]; 3] = [["x_low", "x_high"], ["y_low", "y_high"], ["z_low", "z_high"]];
 
 /// What happens at the six faces: in the first step, and how it changes.
 pub(super) fn faces(
@@ -35,7 +33,7 @@ pub(super) fn faces(
         for side in 0..2 {
             if let Some(section) = given[axis][side] {
                 (built[axis][side], signals[axis][side]) =
-                    face(KEYS[axis][side], section, cells[axis], units, files)?;
+                    face(FACE_KEYS[axis][side], section, cells[axis], units, files)?;
             }
         }
     }
@@ -55,7 +53,7 @@ pub(super) fn check_later(setup: &Setup, signals: &[[FaceSignal; 2]; 3]) -> Resu
                         return Err(trouble(&error));
                     }
                     Err(error) => {
-                        let key = format!("faces.{}", KEYS[axis][side]);
+                        let key = format!("faces.{}", FACE_KEYS[axis][side]);
                         return Err(Trouble::new(key, error.to_string(), "change the value"));
                     }
                     Ok(()) => {}
@@ -203,7 +201,7 @@ fn density(key: &str, si_pressure: f64, units: &Units) -> Result<f64, Trouble> {
 /// The key to blame for a combination that makes no sense.
 pub(super) fn trouble(error: &DomainError) -> Trouble {
     let key_of = |wanted: &str| {
-        let (names, keys) = (FACE_NAMES.as_flattened(), KEYS.as_flattened());
+        let (names, keys) = (FACE_NAMES.as_flattened(), FACE_KEYS.as_flattened());
         let found = names.iter().zip(keys).find(|(name, _)| **name == wanted);
         found.map_or_else(|| "faces".to_owned(), |(_, key)| format!("faces.{key}"))
     };

@@ -14,7 +14,7 @@ use super::contact::DEFAULT_FRICTION;
 use super::listed::{Ball, Site, check_size, size_key};
 use super::numbers::{absent, coefficient, count, needed, positive};
 use crate::packing::{Amount, FOLLOWS, Grading, Sizes};
-use crate::scene::format_grains::GrainsSection;
+use crate::scene::format_grains::{GrainsSection, MotionKind};
 
 /// Above this solid fraction random places run out: grains are pushed apart instead.
 const DILUTE: f64 = 0.25;
@@ -32,6 +32,7 @@ const MOST_IN_BED: usize = 20_000;
 pub(super) fn random(section: &GrainsSection, place: &Site) -> Result<Vec<Ball>, Trouble> {
     let (at, si_lengths) = (&place.at, place.si_lengths());
     absent(&at("packing_friction"), section.packing_friction.as_ref(), "grains of kind `bed`")?;
+    absent(&at("floor"), section.floor.as_ref(), "grains of kind `bed`")?;
     let seed = seed(section, place)?;
     let amount = match (section.count, section.solid_fraction) {
         (Some(number), None) => Amount::Count(whole(&at("count"), number, MOST_GRAINS)?),
@@ -99,7 +100,28 @@ pub(super) fn bed(section: &GrainsSection, place: &Site) -> Result<Vec<Ball>, Tr
         }
     };
     let lengths = [si_lengths[0], si_lengths[1]];
-    balls(SettledBed { lengths, sides, radii, friction, seed }.make(), place)
+    let floor = floor(section, place)?;
+    let mut balls = balls(SettledBed { lengths, sides, radii, friction, seed }.make(), place)?;
+    for ball in &mut balls {
+        ball.si_centre[2] += floor;
+    }
+    Ok(balls)
+}
+
+/// Height of the floor of a bed above the face `z_low`, m.
+fn floor(section: &GrainsSection, place: &Site) -> Result<f64, Trouble> {
+    let (key, si_height) = ((place.at)("floor"), place.si_lengths()[2]);
+    let floor = section.floor.unwrap_or(0.0);
+    if !(0.0..si_height).contains(&floor) {
+        let problem =
+            format!("it must lie between 0 and the height of the domain, {si_height:.4e} m");
+        return Err(Trouble::new(key, problem, "a diameter above a velocity inlet is enough"));
+    }
+    if floor > 0.0 && section.motion == MotionKind::Free {
+        let problem = "free grains would fall from there: nothing holds them";
+        return Err(Trouble::new(key, problem, "leave it out, or let the grains be `fixed`"));
+    }
+    Ok(floor)
 }
 
 fn seed(section: &GrainsSection, place: &Site) -> Result<u64, Trouble> {

@@ -47,6 +47,7 @@ pub(super) fn foreign_keys(
         absent(&at("seed"), section.seed.as_ref(), belongs)?;
         absent(&at("gap"), section.gap.as_ref(), "grains of kind `random`")?;
         absent(&at("packing_friction"), section.packing_friction.as_ref(), "grains of kind `bed`")?;
+        absent(&at("floor"), section.floor.as_ref(), "grains of kind `bed`")?;
     }
     if !matches!(kind, GrainsKind::Random | GrainsKind::Array) {
         let belongs = "grains of kind `array` and `random`";

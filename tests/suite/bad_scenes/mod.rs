@@ -225,6 +225,7 @@ pub const BAD: &[Bad] = &[
     Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\nseed = 3\ndiameter = 2e-4", "grains[0].seed", "applies to"),
     Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\npacking_friction = 0.3\ndiameter = 2e-4", "grains[0].packing_friction", "applies to"),
     Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"bed\"\ncount = 3\npacking_friction = 1e300\ndiameter = 1e-4", "grains[0].packing_friction", "between 0 and 10"),
+    Bad("kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\ndiameter = 2e-4", "kind = \"sphere\"\ncentre = [3e-4, 2.5e-4, 2.5e-4]\nfloor = 1e-4\ndiameter = 2e-4", "grains[0].floor", "applies to"),
     // Free grains.
     Bad("density = 2650.0", "", "grains[2].density", "quartz"),
     Bad("density = 2650.0", "density = -2650.0", "grains[2].density", "above 0"),

@@ -1,4 +1,4 @@
-//! The paper's section 6 at its own size: water through a bed of 1,000 spheres of 16 cells.
+//! The paper's section 6 at its own size: water through a bed of 1,000 spheres of 16 cells, and of 8.
 //!
 //! Adds one row per run to `golden/seepage/paper_size.csv` as it goes; runs that have a row are left out, so that it can be
 //! cut off and started again. Some four hours on two cores.
@@ -22,7 +22,7 @@ const TABLE: &str = "golden/seepage/paper_size.csv";
 
 /// What stands at the head of the table when it is begun.
 const HEAD: &str = "\
-# Seepage through the bed of the paper's section 6 at its own size, 1,000 spheres of 16 cells under a velocity inlet with free
+# Seepage through the bed of the paper's section 6 at its own size, 1,000 spheres of 16 cells (or 8) under a velocity inlet with free
 # outflow: cargo run --release -p psmrt-validation --example paper_seepage
 # paper.toml with other values, on the CPU engine in single precision. core: the spheres whose centres are at least 1.5 diameters above the lowest
 # and 2 below the highest centre; core_solid_fraction by the volumes of the spheres between these planes. psi =
@@ -30,13 +30,12 @@ const HEAD: &str = "\
 # Re = U d/(nu phi), U of the inlet; Re_wanted: with phi = 0.566. density: mean of the domain, kg/m3; max_speed: cells
 # per step; density_change: mean density over the reference one, less 1. outcome: steady (the force on all grains within 1e-3 of
 # its final value by the scene's criterion), not steady after 15 viscous times d2/(4 pi2 nu), or the guard's words.
-engine,collision,weighting,operator,tau,Re_wanted,outcome,Re,psi,psi_Re,over_Beetstra,over_Tang,core_spheres,core_solid_fraction,density,max_speed,lattice_velocity,steps,cell_updates,density_change
+engine,cells,collision,weighting,operator,tau,Re_wanted,outcome,Re,psi,psi_Re,over_Beetstra,over_Tang,core_spheres,core_solid_fraction,density,max_speed,lattice_velocity,steps,cell_updates,density_change
 ";
 
-/// Diameter, m, and viscosity, m2/s, of the scene, its cells per diameter, and the solid fraction that `Re_wanted` is for.
+/// Diameter, m, and viscosity, m2/s, of the scene, and the solid fraction that `Re_wanted` is for.
 const SI_DIAMETER: f64 = 1.6e-4;
 const SI_VISCOSITY: f64 = 1e-6;
-const CELLS: f64 = 16.0;
 const FRACTION: f64 = 0.566;
 
 /// Reynolds numbers, each with the relaxation time at which the pressure under the bed is that of 0.5 to 1 % of the density.
@@ -67,37 +66,30 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let mut bench = Bench::new(Path::new("golden"), EngineName::CpuSingle, None, |_| {});
     // What tells most comes first: each collision and operator at one Reynolds number, then the others one by one.
-    for number in 0..STREAMS.len() {
-        let stream = &STREAMS[number..=number];
-        add_all(&mut bench, Preset::DHumieres, PAPER, stream)?;
-        add_all(&mut bench, Preset::Srt, PAPER, stream)?;
-        add_all(&mut bench, Preset::DHumieres, GRADED, stream)?;
+    for solids in [PAPER, GRADED] {
+        add(&mut bench, 8, Preset::DHumieres, solids, STREAMS[0])?;
     }
-    add_all(&mut bench, Preset::DHumieres, FRACTION_WEIGHT, &LIVES)?;
-    add_all(&mut bench, Preset::Srt, FRACTION_WEIGHT, &LIVES)
-}
-
-fn add_all(
-    bench: &mut Bench,
-    collision: Preset,
-    solids: Solids,
-    streams: &[(f64, f64)],
-) -> Result<(), Box<dyn Error>> {
-    for &(reynolds, tau) in streams {
-        add(bench, collision, solids, reynolds, tau)?;
+    for stream in STREAMS {
+        add(&mut bench, 16, Preset::DHumieres, PAPER, stream)?;
+        add(&mut bench, 16, Preset::Srt, PAPER, stream)?;
+        add(&mut bench, 16, Preset::DHumieres, GRADED, stream)?;
+    }
+    for stream in LIVES {
+        add(&mut bench, 16, Preset::DHumieres, FRACTION_WEIGHT, stream)?;
+        add(&mut bench, 16, Preset::Srt, FRACTION_WEIGHT, stream)?;
     }
     Ok(())
 }
 
 fn add(
     bench: &mut Bench,
+    cells: u32,
     collision: Preset,
     (operator, weighting): Solids,
-    reynolds: f64,
-    tau: f64,
+    (reynolds, tau): (f64, f64),
 ) -> Result<(), Box<dyn Error>> {
     let mut row = format!(
-        "{},{},{},{operator},{tau},{reynolds},",
+        "{},{cells},{},{},{operator},{tau},{reynolds},",
         bench.engine_name().word(),
         collision.word(),
         weighting.unwrap_or("own")
@@ -106,12 +98,15 @@ fn add(
     if study.row(&row)?.is_some() {
         return Ok(());
     }
-    let nu = (tau - 0.5) / 3.0;
+    let (nu, d) = ((tau - 0.5) / 3.0, f64::from(cells));
+    let [side, height] = [128, 272].map(|at_16| at_16 * cells / 16);
     let velocity = reynolds * SI_VISCOSITY * FRACTION / SI_DIAMETER;
     let vector = format!("[0.0, 0.0, {velocity:e}]");
     // A quarter of the time in which a disturbance as long as a sphere is wide dies down by a factor of e.
-    let interval = (0.25 * CELLS * CELLS / (4.0 * PI * PI * nu)).ceil();
+    let interval = (0.25 * d * d / (4.0 * PI * PI * nu)).ceil();
     let mut changes = vec![
+        format!("domain.cells=[{side},{side},{height}]"),
+        format!("domain.dx={:e}", SI_DIAMETER / d),
         format!("time.tau={tau}"),
         format!("faces.z_low.velocity={vector}"),
         format!("initial.velocity={vector}"),
@@ -157,7 +152,7 @@ fn add(
                 core.spheres,
                 density,
                 means.max_speed,
-                reynolds * nu * FRACTION / CELLS,
+                reynolds * nu * FRACTION / f64::from(cells),
                 run.engine.steps(),
                 bench.cell_updates() - before,
                 // Of the density of the water in the domain, over the reference one.
