@@ -37,6 +37,7 @@
 
 pub mod advice;
 pub mod ball;
+pub mod bodies;
 pub mod checkpoint;
 pub mod command;
 pub mod conformance;

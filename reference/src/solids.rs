@@ -1,5 +1,7 @@
 //! Solids in the fluid: vocabulary that every engine shares. What a shape is like: [`crate::shapes`].
 
+use std::sync::Arc;
+
 use crate::lattice::Vec3;
 use nalgebra::Matrix3;
 use thiserror::Error;
@@ -12,11 +14,13 @@ pub enum Shape {
         /// Radius in cells.
         radius: f64,
     },
-    /// Solid fractions given cell by cell (`(cell index, epsilon in 0..=1)`): slabs, voxels. They
-    /// stay where they are, also if the solid has a velocity (a belt).
+    /// Solid fractions given cell by cell (`(cell index, epsilon in 0..=1)`): slabs, voxels, bodies of any form.
     Cells {
         /// Cell index and solid fraction.
-        fractions: Vec<(usize, f64)>,
+        fractions: Arc<[(usize, f64)]>,
+        /// If whoever moves the solid gives new fractions with each place: the number of the place that these are of.
+        /// `None`: they stay where they are, also if the solid has a velocity (a belt).
+        place: Option<u64>,
     },
 }
 
@@ -71,7 +75,7 @@ impl Solid {
     pub fn fixed_cells(fractions: Vec<(usize, f64)>) -> Self {
         let still = Vec3::zeros();
         Solid {
-            shape: Shape::Cells { fractions },
+            shape: Shape::Cells { fractions: fractions.into(), place: None },
             centre: still,
             velocity: still,
             angular_velocity: still,
@@ -105,8 +109,8 @@ impl Solid {
                 bad("radius", *radius, "it must be positive and finite")
             }
             Shape::Sphere { .. } => Ok(()),
-            Shape::Cells { fractions } => {
-                for &(cell, epsilon) in fractions {
+            Shape::Cells { fractions, .. } => {
+                for &(cell, epsilon) in fractions.iter() {
                     if cell >= cell_count {
                         return Err(SolidError::NoSuchCell { solid, cell, count: cell_count });
                     }

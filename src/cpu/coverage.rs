@@ -95,7 +95,7 @@ impl<T: Real> Coverage<T> {
         rule: CoverageRule,
     ) {
         let run = self.run;
-        let has_moved = |number: usize| before[number].centre != solids[number].centre;
+        let has_moved = |number: usize| solids[number].covers_other_cells(&before[number]);
         let changes_velocity = |number: usize| {
             let (now, then) = (&solids[number], &before[number]);
             now.velocity != then.velocity || now.angular_velocity != then.angular_velocity
@@ -193,7 +193,7 @@ fn images<T: Real>(
 ) -> Vec<Image<T>> {
     let mut images = Vec::with_capacity(old.len());
     match &solid.shape {
-        Shape::Cells { fractions } => {
+        Shape::Cells { fractions, .. } => {
             let mut touches: Vec<(usize, f64)> =
                 fractions.iter().filter(|(_, epsilon)| *epsilon > 0.0).copied().collect();
             touches.sort_by_key(|&(cell, _)| cell);

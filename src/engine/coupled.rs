@@ -19,6 +19,7 @@ use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Grip, Load, Solid};
 
+use super::bodies::Bodies;
 use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine, StartError};
 use crate::diagnosis::diagnosed;
 use crate::in_time::Drives;
@@ -45,6 +46,8 @@ pub struct Coupled {
     pub(super) grains: Option<Grains>,
     pub(super) guard: Guard,
     pub(super) steps: u64,
+    /// Bodies that move as prescribed, if there are any.
+    pub(super) bodies: Option<Bodies>,
     /// What changes in time, if anything does.
     pub(super) drives: Option<Drives>,
     /// The first failure while something was observed.
@@ -75,7 +78,16 @@ impl Coupled {
     pub(super) fn new(fluid: Box<dyn FluidEngine>, grains: Option<Grains>) -> Self {
         let guard = Guard::new(fluid.setup().guard);
         let failure = RefCell::default();
-        Coupled { fluid, grains, guard, steps: 0, drives: None, failure, profile: None }
+        Coupled {
+            fluid,
+            grains,
+            guard,
+            steps: 0,
+            bodies: None,
+            drives: None,
+            failure,
+            profile: None,
+        }
     }
 
     /// The name of the fluid engine, as `--engine` spells it.

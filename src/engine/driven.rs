@@ -51,6 +51,7 @@ impl Coupled {
                 (solid.velocity, solid.angular_velocity) = (velocity, angular_velocity);
             }
         }
+        self.turn_bodies(&mut solids)?;
         Ok(self.fluid.place_solids(solids)?)
     }
 

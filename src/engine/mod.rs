@@ -4,11 +4,13 @@
 //! |---|---|
 //! | `fluid.rs` | [`FluidEngine`]: what is asked of whatever computes the fluid |
 //! | `coupled.rs`, `state.rs` | [`Coupled`]: a fluid engine with what is the same above every one: free grains, prescribed motion, guard, profile, saved state |
+//! | `bodies.rs` | bodies of any shape that move as prescribed |
 //! | `name.rs`, `open.rs` | [`EngineName`]; [`open`]: the engine of a scene by its name; the list of engines |
 //! | `reference.rs`, `cpu.rs`, `wgpu.rs` | the oracle, the CPU engine and the kernel as fluid engines |
 //! | `free_state.rs`, `bytes.rs` | free grains, and numbers, as bytes |
 
 mod block;
+mod bodies;
 mod bytes;
 mod coupled;
 mod cpu;
@@ -30,6 +32,7 @@ use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::setup::SetupError;
 use thiserror::Error;
 
+use crate::bodies::moving::BodyStop;
 use crate::diagnosis::ExplainedStop;
 
 pub use block::Block;
@@ -91,6 +94,9 @@ pub enum EngineStop {
     /// The guard of the fluid has stopped it.
     #[error(transparent)]
     Broken(#[from] Box<ExplainedStop>),
+    /// A body that moves as prescribed has run into something.
+    #[error(transparent)]
+    Body(#[from] BodyStop),
     /// The free grains cannot be moved.
     #[error(transparent)]
     Grains(#[from] GrainError),

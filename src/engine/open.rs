@@ -71,6 +71,7 @@ pub fn open(
     let is_prescribed = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
     let whole = (&scene.setup, scene.free.as_ref());
     let mut engine = begin(name, whole, gpu.as_ref(), state, is_prescribed)?;
+    engine.move_bodies(&scene.moving_bodies);
     if let Some(drives) = &scene.drives {
         engine.follow(drives.clone())?;
     }

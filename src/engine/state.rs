@@ -35,6 +35,9 @@ impl Coupled {
             ];
             vectors.into_iter().try_for_each(|vector| put_vector(out, vector))?;
         }
+        for body in self.bodies.iter().flat_map(|bodies| &bodies.moving) {
+            body.turn_numbers().into_iter().try_for_each(|number| put_real(out, number))?;
+        }
         put_drive(out, &self.setup().drive())?;
         put_whole(out, self.setup().domain.cell_count() as u64)?;
         self.fluid.save(out)?;
@@ -63,6 +66,10 @@ impl Coupled {
                 (vector(from)?, vector(from)?, vector(from)?);
             loads.push(Load { force: vector(from)?, torque: vector(from)? });
         }
+        for body in self.bodies.iter_mut().flat_map(|bodies| &mut bodies.moving) {
+            body.set_turn([real(from)?, real(from)?, real(from)?, real(from)?]);
+        }
+        self.shape_bodies(&mut solids).map_err(io::Error::other)?;
         // The kinds of its values are the set-up's.
         let drive = drive(from, &self.setup().drive())?;
         self.fluid.set_drive(&drive).map_err(io::Error::other)?;

@@ -190,7 +190,7 @@ fn weight(weighting: Weighting, sum: f64, tau: f64) -> f64 {
 /// The cells that one solid covers, by their numbers.
 fn list(domain: &Domain, solid: &Solid, rule: CoverageRule, touches: &mut Vec<Touch>) {
     match &solid.shape {
-        Shape::Cells { fractions } => {
+        Shape::Cells { fractions, .. } => {
             for &(cell, epsilon) in fractions.iter().filter(|(_, epsilon)| *epsilon > 0.0) {
                 let arm = domain.centre(domain.coordinates(cell)) - solid.centre;
                 touches.push(Touch { cell: count(cell), epsilon, arm });

@@ -84,7 +84,7 @@ impl Movable {
             let adapter = gpu.facts().name.clone();
             return Err(KernelError::TooManyBindings { needed, available, adapter });
         }
-        let (room, [all, rows]) = Room::of_all(&phase.solids);
+        let (room, [all, rows]) = Room::of_all(&recipe.setup.domain, &phase.solids);
         let most = room.iter().map(|room| room.touches).max().unwrap_or(0);
         let parts = most.div_ceil(SHARE).clamp(1, MOST_PARTS);
         let stage = |stage| recipe.covering(Covering { stage, in_every_cell, parts });
@@ -142,8 +142,18 @@ impl Movable {
         let rows = usize::try_from(all).unwrap_or(usize::MAX);
         movable.records.reserve(gpu, rows)?;
         touches.reserve(gpu, rows, room)?;
-        movable.given.fill(gpu, &given(&phase.solids))?;
+        movable.give(gpu, &phase.solids, &touches.room)?;
         Ok(movable)
+    }
+
+    /// Uploads the cells of solids that are given cell by cell.
+    pub(super) fn give(
+        &mut self,
+        gpu: &Gpu,
+        solids: &[Solid],
+        room: &[Room],
+    ) -> Result<(), KernelError> {
+        self.given.fill(gpu, &given(solids, room))
     }
 
     /// Has the device find what they cover there. Does not wait for it.
@@ -197,12 +207,14 @@ impl Movable {
     }
 }
 
-/// Cell and bits of the solid fraction of each given touch.
-fn given(solids: &[Solid]) -> Vec<[u32; 2]> {
-    let cells = |solid: &Solid| match &solid.shape {
-        Shape::Cells { fractions } => fractions.clone(),
-        Shape::Sphere { .. } => Vec::new(),
-    };
-    let all = solids.iter().flat_map(cells);
-    all.map(|(cell, epsilon)| [count(cell), single(epsilon).to_bits()]).collect()
+/// Cell and bits of the solid fraction of each given touch, each solid's where it has room for them.
+fn given(solids: &[Solid], room: &[Room]) -> Vec<[u32; 2]> {
+    let mut all = Vec::new();
+    for (solid, room) in solids.iter().zip(room) {
+        let Shape::Cells { fractions, .. } = &solid.shape else { continue };
+        let row = |&(cell, epsilon): &(usize, f64)| [count(cell), single(epsilon).to_bits()];
+        all.extend(fractions.iter().map(row));
+        all.resize((room.rows + room.touches) as usize, [0; 2]);
+    }
+    all
 }

@@ -3,6 +3,7 @@
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::SolidPhase;
+use psmrt_reference::solids::{Shape, Solid};
 use wgpu::TextureFormat;
 
 use super::bindings::Binding;
@@ -102,10 +103,12 @@ impl Solids {
 
     /// Uploads where movable solids are now.
     pub(super) fn upload(&mut self, gpu: &Gpu, phase: &SolidPhase) -> Result<(), KernelError> {
-        match self.kept {
-            Kept::Movable(_) => self.touches.place(gpu, &phase.solids),
-            Kept::Fixed(_) => Ok(()),
+        let Kept::Movable(movable) = &mut self.kept else { return Ok(()) };
+        let is_placed = |solid: &Solid| matches!(solid.shape, Shape::Cells { place: Some(_), .. });
+        if phase.solids.iter().any(is_placed) {
+            movable.give(gpu, &phase.solids, &self.touches.room)?;
         }
+        self.touches.place(gpu, &phase.solids)
     }
 
     /// Has the device find what they cover there.

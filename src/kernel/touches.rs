@@ -1,5 +1,8 @@
 //! The parts of cells that solids cover, as the loads are added up from them.
 
+use std::collections::HashSet;
+
+use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::solids::{Shape, Solid};
 
@@ -28,7 +31,7 @@ pub(super) struct Touches {
     /// Momentum and density of each covered cell before its collision, by records.
     pub(super) moments: Table,
     /// Where the touches of each solid stand.
-    room: Vec<Room>,
+    pub(super) room: Vec<Room>,
 }
 
 /// A solid as the device knows it (`wgsl/solid.wgsl`).
@@ -54,20 +57,23 @@ pub(super) struct Room {
     pub(super) touches: u32,
     /// Its first row of cells, or its first given cell.
     pub(super) rows: u32,
-    /// Cells along each side of the box about it, or its given cells.
+    /// Cells along each side of the box about a ball.
     pub(super) side: u32,
 }
 
 impl Room {
     /// The room of all solids; and how many touches and rows of cells there are in all.
-    pub(super) fn of_all(solids: &[Solid]) -> (Vec<Room>, [u32; 2]) {
+    pub(super) fn of_all(domain: &Domain, solids: &[Solid]) -> (Vec<Room>, [u32; 2]) {
         let (mut first, mut rows, mut given) = (1, 0, 0);
         let room = solids.iter().map(|solid| {
             let room = match &solid.shape {
-                Shape::Cells { fractions } => {
-                    let side = count(fractions.len());
-                    given += side;
-                    Room { first, touches: side, rows: given - side, side }
+                Shape::Cells { fractions, place } => {
+                    let touches = match place {
+                        Some(_) => most_given(domain, fractions),
+                        None => count(fractions.len()),
+                    };
+                    given += touches;
+                    Room { first, touches, rows: given - touches, side: 0 }
                 }
                 Shape::Sphere { radius } => {
                     let side = whole(2.0 * radius) + 2;
@@ -95,6 +101,24 @@ impl Room {
         let room = |(first, &touches)| Room { first, touches, rows: 0, side: 0 };
         starts.zip(counts).map(room).collect()
     }
+}
+
+/// Cells that a solid touches wherever it is moved and however it is turned, at most, if these are those that it touches now.
+///
+/// A cell that it touches then holds a point of it. Turned back, all that lies in that cell is within the diagonal of a cell,
+/// √3, of a point of the solid, and so in a cell at most two away, along each axis, from one that it touches now; and no volume grows as
+/// it is turned.
+fn most_given(domain: &Domain, fractions: &[(usize, f64)]) -> u32 {
+    let mut near = HashSet::new();
+    for &(cell, _) in fractions {
+        let [x, y, z] = domain.coordinates(cell).map(|x| x as i64);
+        for k in z - 2..=z + 2 {
+            for j in y - 2..=y + 2 {
+                near.extend((x - 2..=x + 2).map(|i| [i, j, k]));
+            }
+        }
+    }
+    count(near.len())
 }
 
 /// Cells that a ball touches, at most: they all lie in what a cube of side 2 about its points fills.
@@ -190,9 +214,9 @@ impl Touches {
 /// A solid with its room. Places are told against a cell near the solid, so that they keep their digits.
 fn row(solid: &Solid, room: &Room) -> Row {
     let narrow = |v: Vec3| [single(v.x), single(v.y), single(v.z)];
-    let (radius, low) = match solid.shape {
-        Shape::Sphere { radius } => (radius, solid.centre.add_scalar(-radius)),
-        Shape::Cells { .. } => (0.0, solid.centre),
+    let (radius, low, side) = match &solid.shape {
+        Shape::Sphere { radius } => (*radius, solid.centre.add_scalar(-radius), room.side),
+        Shape::Cells { fractions, .. } => (0.0, solid.centre, count(fractions.len())),
     };
     let base = low.map(cell_at);
     let offset = base.map(|i| f64::from(i) + 0.5) - solid.centre;
@@ -204,7 +228,7 @@ fn row(solid: &Solid, room: &Room) -> Row {
         velocity: narrow(solid.velocity),
         rows: room.rows,
         angular_velocity: narrow(solid.angular_velocity),
-        side: room.side,
+        side,
     }
 }
 

@@ -4,21 +4,22 @@ use psmrt_reference::partial_saturation::SolidOperator;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::format_bodies::BodySection;
 use super::format_time::VectorInTime;
 use super::format_voxels::ImageSection;
 use super::triple::Triple;
 
-/// A grain, or several made by one rule. Each grain is a sphere; an image shows solids of any shape.
+/// A grain, or several made by one rule. Each grain is a sphere; an image and a body are solids of any shape.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrainsSection {
     /// `sphere` (one grain), `csv` (a list in a file), `array` (a regular array that fills the domain),
-    /// `random` (a random suspension), `bed` (grains that have settled onto the face `z_low`, or above it) or `voxels` (solids of any
-    /// shape, as an image shows them; they are fixed).
+    /// `random` (a random suspension), `bed` (grains that have settled onto the face `z_low`, or above it), `voxels` (solids of any
+    /// shape, as an image shows them; they are fixed) or `body` (one body that is no sphere: from an STL file, a box, a cylinder).
     pub kind: GrainsKind,
-    /// With `sphere`: its centre, m.
+    /// With `sphere`: its centre, m; with `body`: where its own origin lies, about which it turns, m.
     pub centre: Option<Triple>,
-    /// With all kinds but `csv` and `voxels`: diameter, m.
+    /// With all kinds but `csv`, `voxels` and `body`: diameter, m.
     pub diameter: Option<f64>,
     /// With `csv`: the file, relative to the scene. Its first line is
     /// `x (m),y (m),z (m),diameter (m)`, and `,density (kg/m3)` where the grains have their own, the
@@ -30,6 +31,8 @@ pub struct GrainsSection {
     pub file: Option<String>,
     /// With `voxels`: the image.
     pub image: Option<ImageSection>,
+    /// With `body`: its shape and its size.
+    pub body: Option<BodySection>,
     /// With `array`: `sc` (simple cubic), `bcc` (body-centred) or `fcc` (face-centred).
     pub lattice: Option<LatticeName>,
     /// With `array`: unit cells along x, y, z; 1 each where absent. They must come out as cubes.
@@ -66,7 +69,8 @@ pub struct GrainsSection {
     /// `fixed` (the default), `prescribed` (moves with the given `velocity` and angular velocity `spin`) or `free`
     /// (moves under hydrodynamic force, contacts and gravity). A prescribed sphere re-enters at periodic faces and may
     /// leave through `pressure` and `free_outflow` faces; if it overlaps any other face, or a sphere that is not free,
-    /// by more than 1 % of its diameter, the run stops.
+    /// by more than 1 % of its diameter, the run stops. A prescribed body stops the run when 1 % of its volume is out of the domain
+    /// or in another solid.
     #[serde(default)]
     pub motion: MotionKind,
     /// With `free`: density of the grains, kg/m3; not together with a `csv` file that has a column for it.
@@ -97,6 +101,8 @@ pub enum GrainsKind {
     Bed,
     /// An image.
     Voxels,
+    /// A body that is no sphere.
+    Body,
 }
 
 /// A regular array.

@@ -5,7 +5,7 @@
 //! | `source.rs`, `path.rs` | the text, and where each key stands |
 //! | `changes.rs` | `--set` |
 //! | `edit.rs` | changes of the text that the program makes |
-//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_initial.rs`, `format_run.rs`, `format_time.rs`, `format_voxels.rs` | the keys: names, types, and what they mean |
+//! | `format.rs`, `format_grains.rs`, `format_bodies.rs`, `format_free.rs`, `format_initial.rs`, `format_run.rs`, `format_time.rs`, `format_voxels.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
 //! | `initial.rs` | how the fluid starts |
 //! | `shape.rs` | sections, keys and types as the schema has them |
@@ -19,6 +19,7 @@ pub mod check;
 pub mod columns;
 pub(crate) mod edit;
 pub mod format;
+pub mod format_bodies;
 pub mod format_free;
 pub mod format_grains;
 pub mod format_initial;
@@ -51,6 +52,7 @@ pub use check::stop::{Steady, Stop};
 pub use format_run::{EngineKind, Precision};
 pub use trouble::{SceneError, Trouble};
 
+use crate::bodies::moving::MovingBody;
 use crate::exact::PlanePoiseuille;
 use crate::in_time::Drives;
 use crate::units::Units;
@@ -79,6 +81,8 @@ pub struct Scene {
     pub operator_is_chosen: bool,
     /// How the grains move, if some are free.
     pub free: Option<FreePart>,
+    /// Bodies that move as prescribed.
+    pub moving_bodies: Vec<MovingBody>,
     /// What changes in time, if anything does; the set-up and `free` have the values of the first step.
     pub drives: Option<Drives>,
     /// How the fluid starts.

@@ -61,7 +61,7 @@ pub(crate) fn diameters(scene: &Scene) -> Option<(f64, f64)> {
     (high > 0.0).then_some((low, high))
 }
 
-/// Whether a solid is given cell by cell: an image.
+/// Whether a solid is given cell by cell: an image, or a body that is no sphere.
 pub(crate) fn is_of_cells(solid: &Solid) -> bool {
     match solid.shape {
         Shape::Cells { .. } => true,

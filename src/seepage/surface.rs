@@ -25,8 +25,8 @@ pub(crate) fn sauter(setup: &Setup) -> f64 {
 pub(crate) fn filled(setup: &Setup) -> Vec<f32> {
     let mut filled = vec![0.0; setup.domain.cell_count()];
     for solid in setup.solid_phase.iter().flat_map(|phase| &phase.solids) {
-        let Shape::Cells { fractions } = &solid.shape else { continue };
-        for &(cell, share) in fractions {
+        let Shape::Cells { fractions, .. } = &solid.shape else { continue };
+        for &(cell, share) in fractions.iter() {
             #[expect(clippy::cast_possible_truncation, reason = "a share")]
             let share = share as f32;
             filled[cell] += share;

@@ -16,6 +16,8 @@ mod edges;
 mod implicit;
 #[path = "../mixed/mod.rs"]
 mod mixed;
+#[path = "../moving_bodies/mod.rs"]
+mod moving_bodies;
 #[path = "../parity/mod.rs"]
 mod parity;
 #[path = "../scenes/mod.rs"]

@@ -96,9 +96,9 @@ pub fn error_of_one_step(
     let solids = phase.map_or(&[][..], |phase| &phase.solids);
     let loads = engine.loads();
     for ((load, expected), solid) in loads.iter().zip(oracle.loads()).zip(solids) {
-        let Shape::Cells { fractions } = &solid.shape else { continue };
+        let Shape::Cells { fractions, .. } = &solid.shape else { continue };
         let (mut of_force, mut of_torque) = (0.0, 0.0);
-        for &(cell, epsilon) in fractions {
+        for &(cell, epsilon) in fractions.iter() {
             let arm = setup.domain.centre(setup.domain.coordinates(cell)) - solid.centre;
             let term = gauge(&start[cell]) + kept + solid.velocity_at(&arm).norm();
             of_force += epsilon * term;

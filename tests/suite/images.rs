@@ -307,5 +307,5 @@ fn spheres_and_images_stand_beside_each_other() {
     let error =
         Scene::from_bytes("scene.toml", text.into_bytes(), Path::new(&folder.path("")), &[])
             .unwrap_err();
-    assert!(error.to_string().contains("lie in it"), "{error}");
+    assert!(error.to_string().contains("in common"), "{error}");
 }

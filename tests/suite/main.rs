@@ -18,14 +18,19 @@ mod edges;
 mod implicit;
 #[path = "../mixed/mod.rs"]
 mod mixed;
+#[path = "../moving_bodies/mod.rs"]
+mod moving_bodies;
 #[path = "../scenes/mod.rs"]
 mod scenes;
+#[path = "../surfaces/mod.rs"]
+mod surfaces;
 
 mod agreement;
 mod bad_scenes;
 mod bed_records;
 mod bits;
 mod bodies;
+mod bodies_in_flow;
 mod circles;
 mod cli_folder;
 mod cli_info;
@@ -53,6 +58,7 @@ mod implicit_coupling;
 mod in_time;
 mod kernel_coverage;
 mod load_means;
+mod meshes;
 mod oscillating;
 mod packing;
 mod packing_places;

@@ -49,7 +49,7 @@ fn declared(call: &str) -> u64 {
 fn declared_cell_updates_of_all_tests_stay_within_the_budget_of_the_suite() {
     // Together with all else, six minutes on two cores: the oracle makes four to ten million a second on two.
     let oracle = declared("Budget::oracle(");
-    assert!(oracle <= 764_000_000, "the tests declare {oracle} cell updates of the oracle");
+    assert!(oracle <= 770_000_000, "the tests declare {oracle} cell updates of the oracle");
     // The kernel's, on a software adapter, and the CPU engine's.
     let kernel = declared("Budget::kernel(");
     assert!(kernel <= 2_600_000_000, "the tests declare {kernel} cell updates of the kernel");
@@ -155,7 +155,7 @@ fn nothing_points_back_to_the_validation() {
 #[test]
 fn rooms_of_the_product_use_only_those_below_them() {
     // Lowest first.
-    const ROOMS: [&str; 29] = [
+    const ROOMS: [&str; 30] = [
         "quote",
         "number_type",
         "npy",
@@ -166,6 +166,7 @@ fn rooms_of_the_product_use_only_those_below_them() {
         "provenance",
         "convergence",
         "voxels",
+        "bodies",
         "packing",
         "exact",
         "in_time",

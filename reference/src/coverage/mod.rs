@@ -44,8 +44,8 @@ pub struct Coverage {
     /// Shares of the cells that have some; empty ones are listed in `free`.
     shares: Vec<Vec<Share>>,
     free: Vec<u32>,
-    /// For each solid, the cells that it touches, and where its centre was when they were listed.
-    touched: Vec<(Option<Vec3>, Vec<usize>)>,
+    /// For each solid, the cells that it touches, and the solid as it was when they were listed.
+    touched: Vec<(Option<Solid>, Vec<usize>)>,
 }
 
 impl Coverage {
@@ -67,7 +67,9 @@ impl Coverage {
         let covered: Vec<(usize, Vec<Covered>)> = solids
             .par_iter()
             .enumerate()
-            .filter(|(number, solid)| touched[*number].0 != Some(solid.centre))
+            .filter(|(number, solid)| {
+                touched[*number].0.as_ref().is_none_or(|before| solid.covers_other_cells(before))
+            })
             .map(|(number, solid)| (number, solid.covered(domain, rule)))
             .collect();
         for (number, shares) in covered {
@@ -75,7 +77,7 @@ impl Coverage {
             for Covered { cell, epsilon, arm } in shares {
                 self.add(cell, Share { solid: number, epsilon, arm });
             }
-            self.touched[number].0 = Some(solids[number].centre);
+            self.touched[number].0 = Some(solids[number].clone());
         }
     }
 

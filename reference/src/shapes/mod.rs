@@ -25,7 +25,7 @@ impl Solid {
     pub fn volume(&self) -> f64 {
         match &self.shape {
             Shape::Sphere { radius } => sphere::volume(*radius),
-            Shape::Cells { fractions } => cells::volume(fractions),
+            Shape::Cells { fractions, .. } => cells::volume(fractions),
         }
     }
 
@@ -33,7 +33,7 @@ impl Solid {
     pub fn diameter(&self) -> f64 {
         match &self.shape {
             Shape::Sphere { radius } => 2.0 * radius,
-            Shape::Cells { fractions } => sphere::diameter_of(cells::volume(fractions)),
+            Shape::Cells { fractions, .. } => sphere::diameter_of(cells::volume(fractions)),
         }
     }
 
@@ -42,7 +42,7 @@ impl Solid {
     pub fn bounds(&self, domain: &Domain) -> Option<[Vec3; 2]> {
         match &self.shape {
             Shape::Sphere { radius } => Some(sphere::bounds(&self.centre, *radius)),
-            Shape::Cells { fractions } => cells::bounds(domain, fractions),
+            Shape::Cells { fractions, .. } => cells::bounds(domain, fractions),
         }
     }
 
@@ -51,7 +51,7 @@ impl Solid {
     pub fn covered(&self, domain: &Domain, rule: CoverageRule) -> Vec<Covered> {
         match &self.shape {
             Shape::Sphere { radius } => sphere::covered(domain, &self.centre, *radius, rule),
-            Shape::Cells { fractions } => cells::covered(domain, &self.centre, fractions),
+            Shape::Cells { fractions, .. } => cells::covered(domain, &self.centre, fractions),
         }
     }
 
@@ -59,7 +59,7 @@ impl Solid {
     pub fn most_cells(&self) -> f64 {
         match &self.shape {
             Shape::Sphere { radius } => sphere::most_cells(*radius),
-            Shape::Cells { fractions } => fractions.len() as f64,
+            Shape::Cells { fractions, .. } => fractions.len() as f64,
         }
     }
 
@@ -69,7 +69,7 @@ impl Solid {
             Shape::Sphere { radius } => {
                 self.velocity.norm() + radius * self.angular_velocity.norm()
             }
-            Shape::Cells { fractions } => {
+            Shape::Cells { fractions, .. } => {
                 let covered = cells::covered(domain, &self.centre, fractions);
                 covered.iter().map(|at| self.velocity_at(&at.arm).norm()).fold(0.0, f64::max)
             }
@@ -80,8 +80,17 @@ impl Solid {
     pub fn moves(&self) -> bool {
         match self.shape {
             Shape::Sphere { .. } => self.velocity != Vec3::zeros(),
-            // A belt: it stays where it is.
-            Shape::Cells { .. } => false,
+            // A belt stays where it is.
+            Shape::Cells { place, .. } => place.is_some() && self.has_velocity(),
         }
+    }
+
+    /// Whether it covers other cells than `before`, itself at another time.
+    pub fn covers_other_cells(&self, before: &Solid) -> bool {
+        let place = |solid: &Solid| match solid.shape {
+            Shape::Sphere { .. } => None,
+            Shape::Cells { place, .. } => place,
+        };
+        self.centre != before.centre || place(self) != place(before)
     }
 }

@@ -100,7 +100,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
         numbers.push(number("solid fraction", solid_fraction(scene), "", note));
     }
     if has_image {
-        let note = "of spheres with the volume and the surface of the image, 6 V/S";
+        let note = "of spheres with the volume and the surface of images and bodies, 6 V/S";
         numbers.push(number("cells per diameter", sauter(&scene.setup), "", note));
     }
     if let Some(bed) = bed(scene) {

@@ -96,7 +96,7 @@ fn expected(scene: &Scene) -> Option<Expected> {
 /// The superficial velocity that the law foretells, cells per step.
 pub(crate) fn velocity_by_law(scene: &Scene) -> Option<(f64, String)> {
     let found = expected(scene).filter(|found| !found.is_velocity_given)?;
-    let source = "what drives the fluid through the image, by the law of Beetstra et al. for spheres of its volume and surface";
+    let source = "what drives the fluid through the solids, by the law of Beetstra et al. for spheres of its volume and surface";
     Some((found.velocity.abs(), source.to_owned()))
 }
 

@@ -105,7 +105,7 @@ impl Facts {
         let spheres = spheres(scene);
         let nu = viscosity(setup.collision.tau());
         if has_image(setup) {
-            let why = "it has an image, and the evidence is of spheres and of flows between walls";
+            let why = "it has an image or a body of another shape, and the evidence is of spheres and of flows between walls";
             return Ok(Err(why.to_owned()));
         }
         let limit = if spheres.is_empty() {

@@ -138,7 +138,7 @@ impl Model {
             let mut arm = domain.centre(domain.coordinates(cell)) - solids[number].centre;
             let radius = match &solids[number].shape {
                 Shape::Sphere { radius } => *radius,
-                Shape::Cells { fractions } => {
+                Shape::Cells { fractions, .. } => {
                     let given = fractions.iter().find(|(place, _)| *place == cell);
                     return given.filter(|given| given.1 > 0.0).map(|given| (number, given.1, arm));
                 }

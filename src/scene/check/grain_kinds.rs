@@ -13,8 +13,11 @@ pub(super) fn foreign_keys(
     at: &dyn Fn(&str) -> String,
 ) -> Result<(), Trouble> {
     let kind = section.kind;
-    if kind != GrainsKind::Sphere {
-        absent(&at("centre"), section.centre.as_ref(), "grains of kind `sphere`")?;
+    if !matches!(kind, GrainsKind::Sphere | GrainsKind::Body) {
+        absent(&at("centre"), section.centre.as_ref(), "grains of kind `sphere` and `body`")?;
+    }
+    if kind != GrainsKind::Body {
+        absent(&at("body"), section.body.as_ref(), "grains of kind `body`")?;
     }
     if kind != GrainsKind::Voxels {
         absent(&at("image"), section.image.as_ref(), "grains of kind `voxels`")?;
@@ -26,6 +29,14 @@ pub(super) fn foreign_keys(
             let remedy =
                 "name it there: `image = { file = \"sand.npy\", voxel = 5e-6, solid = [1] }`";
             return Err(Trouble::new(at("file"), "an image is named by `image.file`", remedy));
+        }
+    } else if kind == GrainsKind::Body {
+        let belongs = "spheres (the size of a body stands in `body`)";
+        absent(&at("diameter"), section.diameter.as_ref(), belongs)?;
+        if section.file.is_some() {
+            let remedy =
+                "name it there: `body = { shape = \"stl\", file = \"stone.stl\", scale = 1e-3 }`";
+            return Err(Trouble::new(at("file"), "an STL file is named by `body.file`", remedy));
         }
     } else if kind == GrainsKind::Csv {
         let belongs = "grains of other kinds than `csv`; the file has its own";
@@ -74,8 +85,8 @@ pub(super) fn balls(
         GrainsKind::Array => arrays::balls(section, &place.at, place.domain, place.units)?,
         GrainsKind::Random => generated::random(section, place)?,
         GrainsKind::Bed => generated::bed(section, place)?,
-        // Images are no spheres: `voxels.rs` reads them.
-        GrainsKind::Voxels => Vec::new(),
+        // No spheres: `voxels.rs` and `bodies.rs` read them.
+        GrainsKind::Voxels | GrainsKind::Body => Vec::new(),
     };
     Ok((balls, None))
 }

@@ -10,7 +10,7 @@ use super::numbers::{absent, beyond, finite, needed, positive, shorter_step};
 use super::signal_file::Subject;
 use super::{Attachment, MAX_SPEED, Trouble, grain_kinds, in_time, neighbours};
 use crate::in_time::{Prescribed, Signal};
-use crate::scene::format_grains::{GrainsSection, MotionKind};
+use crate::scene::format_grains::{GrainsKind, GrainsSection, MotionKind};
 use crate::scene::format_time::VectorInTime;
 use crate::units::Units;
 
@@ -22,8 +22,10 @@ const DENSITY_RATIOS: std::ops::RangeInclusive<f64> = 0.01..=1000.0;
 pub(super) struct GrainList {
     pub grains: Vec<Listed>,
     pub prescribed: Vec<Prescribed>,
-    /// Solids of other shapes, all fixed.
+    /// Solids of other shapes.
     pub bodies: Vec<Solid>,
+    /// For each of these the key to blame for where it is.
+    pub body_keys: Vec<String>,
 }
 
 impl GrainList {
@@ -38,6 +40,9 @@ impl GrainList {
         for (number, section) in sections.iter().enumerate() {
             let at = |key: &str| format!("grains[{number}].{key}");
             grain_kinds::foreign_keys(section, &at)?;
+            if section.kind == GrainsKind::Body {
+                continue; // `bodies.rs`
+            }
             let motion = motion(section, &at, units, files)?;
             let (velocity, angular_velocity) = (motion.0.at(0.0), motion.1.at(0.0));
             let fastest = (motion.0.largest(Vec3::norm), motion.1.largest(Vec3::norm));
@@ -115,7 +120,7 @@ impl GrainList {
 }
 
 /// Velocity and angular velocity in lattice units.
-fn motion(
+pub(super) fn motion(
     section: &GrainsSection,
     at: &impl Fn(&str) -> String,
     units: &Units,
@@ -225,7 +230,7 @@ fn density(
     Err(Trouble::new(key, problem, "densities are in kg/m3: water has 1000, quartz 2650"))
 }
 
-fn check_speed(
+pub(super) fn check_speed(
     key: &str,
     velocity: &Vec3,
     angular_velocity: &Vec3,

@@ -138,6 +138,7 @@ pub(super) fn place_key(section: &GrainsSection, at: &dyn Fn(&str) -> String) ->
         GrainsKind::Array if section.diameter.is_some() => at("diameter"),
         GrainsKind::Array => at("solid_fraction"),
         GrainsKind::Voxels => at("image"),
+        GrainsKind::Body => at("body"),
         GrainsKind::Bed => at("count"),
         GrainsKind::Random if section.count.is_some() => at("count"),
         GrainsKind::Random => at("solid_fraction"),

@@ -1,9 +1,11 @@
 //! Values that make sense: each section of a scene becomes its checked form in lattice units, or
 //! one [`Trouble`] that names the key, what is allowed, and the remedy.
 
+mod apart;
 mod arrays;
 pub mod attachment;
 mod balance;
+mod bodies;
 pub mod checkpoint;
 mod collision;
 pub mod contact;
@@ -90,6 +92,8 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     let initial = initial::initial(file.initial.as_ref(), &setup.domain, &units, &mut files)?;
     let mut list = GrainList::new(&file.grains, &mut files, &setup.domain, &units)?;
     placed_images::add(&images, &mut list, &mut files, (&setup.domain, &units))?;
+    let moving_bodies = bodies::add(&file.grains, &mut list, &mut files, (&setup.domain, &units))?;
+    apart::check(&list, &setup.domain)?;
     let gravity = file.gravity.as_ref().map(|section| {
         acceleration_in_time("gravity.acceleration", &section.acceleration, &units, &mut files)
     });
@@ -141,6 +145,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         keeps_last_state: file.checkpoint.as_ref().is_none_or(|s| s.at_end != Some(false)),
         setup,
         free,
+        moving_bodies,
         drives,
         operator_is_chosen: file.solid.as_ref().is_none_or(|section| section.operator.is_none()),
         initial,

@@ -1,18 +1,15 @@
-//! Images put into the domain: as solids of it, apart from each other and from spheres, with pores that let fluid through.
+//! Images put into the domain: as solids of it, with pores that let fluid through.
 
-use psmrt_reference::coverage::CoverageRule;
 use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::Setup;
-use psmrt_reference::solids::{Shape, Solid};
+use psmrt_reference::solids::Solid;
 
 use super::Trouble;
 use super::grains::GrainList;
 use super::in_time::Files;
-use super::neighbours::MAX_OVERLAP;
 use super::permeability::driven_axes;
 use super::voxels::ListedImage;
-use crate::scene::format_grains::MotionKind;
 use crate::units::Units;
 use crate::voxels::pores::{pores, solid_cells};
 use crate::voxels::shares::{Placed, solid_shares};
@@ -107,55 +104,11 @@ pub(super) fn add(
     files: &mut Files,
     (domain, units): (&Domain, &Units),
 ) -> Result<(), Trouble> {
-    if images.is_empty() {
-        return Ok(());
+    for image in images {
+        list.bodies.push(image.solid(domain, units)?);
+        list.body_keys.push(image.key(""));
     }
-    if let Some(grain) = list.grains.iter().find(|grain| grain.motion != MotionKind::Fixed) {
-        let problem = "a grain moves, and nothing keeps it out of what the image shows";
-        let remedy = "leave out `motion` of the grains beside an image, or the image";
-        return Err(grain.trouble(problem.to_owned(), remedy));
-    }
-    let bodies = images.iter().map(|image| image.solid(domain, units));
-    let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
-    apart(images, &bodies, &list.solids(), domain)?;
-    list.bodies = bodies;
     files.attachments.extend(images.iter().map(|image| image.attachment.clone()));
-    Ok(())
-}
-
-/// Errors if images overlap each other or spheres.
-fn apart(
-    images: &[ListedImage],
-    bodies: &[Solid],
-    spheres: &[Solid],
-    domain: &Domain,
-) -> Result<(), Trouble> {
-    let mut filled = vec![0.0; domain.cell_count()];
-    for (image, body) in images.iter().zip(bodies) {
-        let Shape::Cells { fractions } = &body.shape else { continue };
-        for &(cell, share) in fractions {
-            filled[cell] += share;
-            if filled[cell] > 1.0 + 1e-9 {
-                let [x, y, z] = domain.coordinates(cell);
-                let problem = format!("it overlaps another image in cell [{x}, {y}, {z}]");
-                let remedy = "move one of them (`corner`), or crop it";
-                return Err(Trouble::new(image.key(""), problem, remedy));
-            }
-        }
-    }
-    for (number, sphere) in spheres.iter().enumerate() {
-        let covered = sphere.covered(domain, CoverageRule::Exact);
-        let both: f64 =
-            covered.iter().map(|at| (filled[at.cell] + at.epsilon - 1.0).max(0.0)).sum();
-        if both > MAX_OVERLAP * sphere.volume() {
-            let problem = format!(
-                "{:.1} % of grain {number} (from 0) lie in it; {:.0} % is the limit",
-                100.0 * both / sphere.volume(),
-                100.0 * MAX_OVERLAP
-            );
-            return Err(Trouble::new(images[0].key(""), problem, "move one of them"));
-        }
-    }
     Ok(())
 }
 

@@ -37,7 +37,7 @@ fn coarse(scene: &Scene) -> Option<Warning> {
         return None;
     }
     let reason = format!(
-        "{:.0} % of the cells with solid are solid in part only: the grid is coarser than what the image shows, and neither flow \
+        "{:.0} % of the cells with solid are solid in part only: the grid is coarser than what the image or the body shows, and neither flow \
          nor 6 V/S, with all that rests on it, can be trusted",
         100.0 * share
     );

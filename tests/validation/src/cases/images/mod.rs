@@ -1,19 +1,21 @@
-//! Flow through images: three porous bodies against an independent program and finite differences, and what solid fractions
-//! are worth on a grid that is coarser than the image.
+//! Solids of any shape: flow through images, three porous bodies against an independent program and finite differences; what solid
+//! fractions are worth on a grid that is coarser than the image; and the drag of a body from an STL file.
 
+mod cylinder;
 mod study;
 
 use psmrt_report::{Axis, Figure, Series};
 
 use super::found::found;
 use super::{Bench, Case, CaseError, Claim, Golden};
+pub use cylinder::Cylinder;
 use psmrt::table::{Table, TableError};
 pub use study::{BallImage, PorousImage};
 
 /// Images of solids.
 pub const CASE: Case = Case {
     name: "images",
-    title: "The permeability of images of porous bodies",
+    title: "Solids of any shape: the permeability of images, the drag of an STL body",
     about: &[
         "Three images of 32 x 32 x 32 voxels, made with porespy 3.2: overlapping spheres, fibres, and blobs, whose narrow throats are \
          a voxel wide. Water is driven through each along x between two pressure faces. k = nu U L/(dp/rho), with the superficial \
@@ -26,13 +28,14 @@ pub const CASE: Case = Case {
         "A simple cubic array of spheres (solid fraction 0.343) as an image of 48 x 48 x 48 voxels, whose exact drag is known, tells \
          what is lost when an image is put on a coarser grid, as any large one has to be: with the share of each cell that is solid, \
          and with cells that are solid or not (an image taken with voxels as large as the cells). Both cost the same.",
+        "A cylinder of 256 flat sides from an STL file stands across a stream, 20 diameters behind the inlet and 15 from sides where the water slips.",
     ],
-    scenes: &["scene.toml", "array.toml"],
-    literature: &["independent.csv", "literature.csv"],
+    scenes: &["scene.toml", "array.toml", "cylinder.toml"],
+    literature: &["independent.csv", "literature.csv", "cylinder_literature.csv"],
     rows: "expected.csv",
-    studies: &["study.csv", "array.csv"],
+    studies: &["study.csv", "array.csv", "cylinder.csv"],
     units: "k in squares of a voxel; porosity of the image without its clear ends, without unit",
-    full: "cargo run --release -p psmrt-validation --example image_study",
+    full: "cargo run --release -p psmrt-validation --example image_study, and --example body_study",
     measure,
     judge,
     draw,
@@ -106,6 +109,7 @@ fn judge(golden: &Golden, rows: &Table) -> Result<Vec<Claim>, CaseError> {
         }
     }
     claims.extend(of_array(golden)?);
+    claims.extend(cylinder::claims(golden)?);
     Ok(claims)
 }
 

@@ -1,0 +1,340 @@
+//! Bodies that are no spheres: from the keys of a section to a solid of the domain.
+
+use std::path::Path;
+
+use nalgebra::{Unit, UnitQuaternion};
+use psmrt_reference::domain::Domain;
+use psmrt_reference::lattice::Vec3;
+use psmrt_reference::solids::{Shape, Solid};
+
+use super::grains::{GrainList, check_speed, motion};
+use super::in_time::Files;
+use super::numbers::{absent, finite, needed, positive};
+use super::{Attachment, Trouble};
+use crate::bodies::mesh::Mesh;
+use crate::bodies::moving::MovingBody;
+use crate::bodies::pose::Pose;
+use crate::bodies::shares::solid_shares;
+use crate::bodies::{formula, stl};
+use crate::in_time::Prescribed;
+use crate::input;
+use crate::quote;
+use crate::scene::format_bodies::{BodySection, BodyShapeName};
+use crate::scene::format_grains::{GrainsKind, GrainsSection, MotionKind};
+use crate::units::Units;
+
+/// How far a body may reach across a periodic face, cells: what rounding of lengths leaves.
+const REACHES_OUT: f64 = 1e-6;
+
+/// Bytes that an STL file may have: some 40 million triangles.
+const LARGEST: u64 = 2048 * input::MIB;
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A body about its centre, in cells.
+struct Form {
+    mesh: Mesh,
+    /// The direction in which it has no end.
+    endless: Endless,
+}
+
+/// Which way a body goes on beyond the domain.
+#[derive(Clone, Copy, PartialEq)]
+enum Endless {
+    No,
+    /// Along this direction, always the same.
+    Along(Vec3),
+    /// In all directions across this one.
+    Across(Vec3),
+    /// In all directions but along this one, where it has a bore.
+    Around(Vec3),
+}
+
+/// Puts the bodies of all sections behind the other solids of a list; those of them that move. Errors at the first that cannot be.
+pub(super) fn add(
+    sections: &[GrainsSection],
+    list: &mut GrainList,
+    files: &mut Files,
+    (domain, units): (&Domain, &Units),
+) -> Result<Vec<MovingBody>, Trouble> {
+    let mut all_moving = Vec::new();
+    for (number, section) in sections.iter().enumerate() {
+        if section.kind != GrainsKind::Body {
+            continue;
+        }
+        let at = |key: &str| format!("grains[{number}].{key}");
+        if section.motion == MotionKind::Free {
+            let problem = "only spheres can be free";
+            return Err(Trouble::new(at("motion"), problem, "use \"fixed\" or \"prescribed\""));
+        }
+        absent(&at("density"), section.density.as_ref(), "grains that are free")?;
+        let remedy = "add `body = { shape = \"stl\", file = \"stone.stl\", scale = 1e-3 }`";
+        let because = "grains of kind `body` need it";
+        let body = needed(&at("body"), section.body.as_ref(), because, remedy)?;
+        let remedy = "add `centre = [x, y, z]` in m";
+        let si_centre = needed(&at("centre"), section.centre, "a body needs it", remedy)?;
+        finite(&at("centre"), &si_centre, "m")?;
+        let centre = Units::to_lattice(si_centre, units.si_dx);
+        let form = form(body, number, files, (domain, units))?;
+        let (velocity, spin) = motion(section, &at, units, files)?;
+        let reach = form.mesh.reach(&Vec3::zeros());
+        let moves = velocity.largest(Vec3::norm) != Vec3::zeros()
+            || spin.largest(Vec3::norm) != Vec3::zeros();
+        if moves && form.endless != Endless::No {
+            let problem = "a body without end cannot move";
+            return Err(Trouble::new(
+                at("motion"),
+                problem,
+                "give it a `length`, or make it \"fixed\"",
+            ));
+        }
+        check_speed(
+            &at("spin"),
+            &velocity.largest(Vec3::norm),
+            &spin.largest(Vec3::norm),
+            reach,
+            units,
+        )?;
+        let placed = Pose { centre, turn: UnitQuaternion::identity() }.place(&form.mesh);
+        crosses_no_period(&at("body"), &form.endless, &placed, domain)?;
+        let shares = solid_shares(&placed, domain.cells());
+        is_there(&at("centre"), &shares, (&form, moves), (domain, units))?;
+        let solid = list.grains.len() + list.bodies.len();
+        if velocity.varies() || spin.varies() {
+            list.prescribed.push(Prescribed {
+                solids: solid..solid + 1,
+                section: number,
+                velocity: velocity.clone(),
+                angular_velocity: spin.clone(),
+            });
+        }
+        let shape = Shape::Cells { fractions: shares.into(), place: moves.then_some(0) };
+        let (velocity, angular_velocity) = (velocity.at(0.0), spin.at(0.0));
+        list.bodies.push(Solid { shape, centre, velocity, angular_velocity });
+        list.body_keys.push(at("body"));
+        if moves {
+            all_moving.push(MovingBody::new(solid, number, form.mesh));
+        }
+    }
+    Ok(all_moving)
+}
+
+/// The surface about the centre, in cells.
+fn form(
+    body: &BodySection,
+    number: usize,
+    files: &mut Files,
+    (domain, units): (&Domain, &Units),
+) -> Result<Form, Trouble> {
+    let at = |key: &str| format!("grains[{number}].body.{key}");
+    only_for(body, &at)?;
+    let length = |key: &'static str, given: Option<f64>| {
+        let because = format!("a body of shape `{}` needs it", body.shape.word());
+        let given = needed(&at(key), given, &because, "add it, in m")?;
+        positive(&at(key), given, "m")?;
+        Ok::<_, Trouble>(given / units.si_dx)
+    };
+    // Beyond the domain from anywhere in it.
+    let beyond = 4.0 * Vec3::from(domain.cells().map(|n| n as f64)).norm();
+    let along = |key: &'static str, given: Option<[f64; 3]>| {
+        let because = format!("a body of shape `{}` needs it", body.shape.word());
+        let given = needed(&at(key), given, &because, "add a direction, for example [0, 0, 1]")?;
+        direction(&at(key), given)
+    };
+    let turned =
+        |mesh: Mesh, turn: UnitQuaternion<f64>| Pose { centre: Vec3::zeros(), turn }.place(&mesh);
+    Ok(match body.shape {
+        BodyShapeName::Stl => {
+            let mesh = turned(read(body, &at, number, files, units)?, turn(body, &at)?);
+            Form { mesh, endless: Endless::No }
+        }
+        BodyShapeName::Box => {
+            let size =
+                needed(&at("size"), body.size, "a box needs it", "add `size = [x, y, z]` in m")?;
+            for edge in size {
+                positive(&at("size"), edge, "m")?;
+            }
+            let edges = Units::to_lattice(size, units.si_dx);
+            Form { mesh: turned(formula::cuboid(&edges), turn(body, &at)?), endless: Endless::No }
+        }
+        BodyShapeName::Cylinder => {
+            let radius = 0.5 * length("diameter", body.diameter)?;
+            let axis = along("axis", body.axis)?;
+            let long = body.length.map(|given| length("length", Some(given))).transpose()?;
+            let mesh =
+                turned(formula::cylinder(radius, long.unwrap_or(beyond)), Pose::from_z_to(&axis));
+            Form { mesh, endless: if long.is_some() { Endless::No } else { Endless::Along(*axis) } }
+        }
+        BodyShapeName::Pipe => {
+            let inner = 0.5 * length("diameter", body.diameter)?;
+            let wall = body.wall.map(|given| length("wall", Some(given))).transpose()?;
+            let axis = along("axis", body.axis)?;
+            let long = body.length.map(|given| length("length", Some(given))).transpose()?;
+            let outer = inner + wall.unwrap_or(beyond);
+            let mesh =
+                turned(formula::pipe(inner, outer, long.unwrap_or(beyond)), Pose::from_z_to(&axis));
+            let endless = match (wall, long) {
+                (Some(_), Some(_)) => Endless::No,
+                (Some(_), None) => Endless::Along(*axis),
+                (None, _) => Endless::Around(*axis),
+            };
+            Form { mesh, endless }
+        }
+        BodyShapeName::HalfSpace => {
+            let normal = along("normal", body.normal)?;
+            let mesh = turned(formula::half_space(beyond), Pose::from_z_to(&normal));
+            Form { mesh, endless: Endless::Across(*normal) }
+        }
+    })
+}
+
+/// Errors at a key that belongs to another shape.
+fn only_for(body: &BodySection, at: &impl Fn(&str) -> String) -> Result<(), Trouble> {
+    use BodyShapeName::{Box, Cylinder, HalfSpace, Pipe, Stl};
+    let keys = [
+        ("file", body.file.is_some(), &[Stl][..]),
+        ("scale", body.scale.is_some(), &[Stl]),
+        ("origin", body.origin.is_some(), &[Stl]),
+        ("size", body.size.is_some(), &[Box]),
+        ("diameter", body.diameter.is_some(), &[Cylinder, Pipe]),
+        ("wall", body.wall.is_some(), &[Pipe]),
+        ("length", body.length.is_some(), &[Cylinder, Pipe]),
+        ("axis", body.axis.is_some(), &[Cylinder, Pipe]),
+        ("normal", body.normal.is_some(), &[HalfSpace]),
+        ("turn", body.turn.is_some(), &[Stl, Box]),
+    ];
+    for (key, is_given, shapes) in keys {
+        if is_given && !shapes.contains(&body.shape) {
+            let words: Vec<String> =
+                shapes.iter().map(|shape| format!("`{}`", shape.word())).collect();
+            let problem = format!("it applies to bodies of shape {} only", words.join(" and "));
+            return Err(Trouble::new(at(key), problem, "remove it, or change `shape`"));
+        }
+    }
+    Ok(())
+}
+
+/// The surface in an STL file about its origin, in cells.
+fn read(
+    body: &BodySection,
+    at: &impl Fn(&str) -> String,
+    number: usize,
+    files: &mut Files,
+    units: &Units,
+) -> Result<Mesh, Trouble> {
+    let because = "a body of shape `stl` needs it";
+    let file = needed(&at("file"), body.file.as_deref(), because, "add `file = \"stone.stl\"`")?;
+    let remedy = "add how long a unit of the file is, m: `scale = 1e-3` for millimetres";
+    let scale = needed(&at("scale"), body.scale, because, remedy)?;
+    positive(&at("scale"), scale, "m")?;
+    let path = files.folder.join(Path::new(file));
+    let said = |problem: String, remedy: &str| {
+        Trouble::new(at("file"), format!("{}: {problem}", quote::path(&path)), remedy)
+    };
+    let bytes = input::read(&path, LARGEST).map_err(|error| {
+        said(error.to_string(), "give the name of an STL file, relative to the scene")
+    })?;
+    let mesh = stl::mesh(bytes.clone()).map_err(|error| {
+        let remedy = "mend the surface in the program that made it (MeshLab, Blender and others close holes, turn triangles over \
+                      and take crossing parts apart), or take `shape = \"box\"` and others for simple bodies";
+        said(error.to_string(), remedy)
+    })?;
+    let origin = match body.origin {
+        Some(origin) => {
+            finite(&at("origin"), &origin, "in units of the file")?;
+            Vec3::from(origin)
+        }
+        None => mesh.middle(),
+    };
+    files.attachments.push(Attachment::of_field(
+        &at("file"),
+        &format!("grains_{number}.stl"),
+        bytes,
+    ));
+    Ok(mesh.mapped(|vertex| (vertex - origin) * (scale / units.si_dx)))
+}
+
+fn turn(body: &BodySection, at: &impl Fn(&str) -> String) -> Result<UnitQuaternion<f64>, Trouble> {
+    let Some(turn) = &body.turn else { return Ok(UnitQuaternion::identity()) };
+    finite(&at("turn.degrees"), &[turn.degrees], "degrees")?;
+    let axis = direction(&at("turn.axis"), turn.axis)?;
+    Ok(UnitQuaternion::from_axis_angle(&axis, turn.degrees.to_radians()))
+}
+
+fn direction(key: &str, given: [f64; 3]) -> Result<Unit<Vec3>, Trouble> {
+    finite(key, &given, "a direction")?;
+    Unit::try_new(Vec3::from(given), 1e-100).ok_or_else(|| {
+        Trouble::new(key, "a direction cannot be 0", "give one, for example [0, 0, 1]")
+    })
+}
+
+/// Errors if a body reaches across a periodic face and does not go on beyond it as it comes in on the other side.
+fn crosses_no_period(
+    key: &str,
+    endless: &Endless,
+    placed: &Mesh,
+    domain: &Domain,
+) -> Result<(), Trouble> {
+    let [low, high] = placed.bounds();
+    for axis in (0..3).filter(|&axis| domain.is_periodic(axis)) {
+        let mut unit = Vec3::zeros();
+        unit[axis] = 1.0;
+        // Whether it is the same a period further on.
+        let goes_on = match endless {
+            Endless::No => false,
+            Endless::Along(along) | Endless::Around(along) => along.cross(&unit).norm() < 1e-12,
+            Endless::Across(normal) => normal.dot(&unit).abs() < 1e-12,
+        };
+        let end = domain.cells()[axis] as f64;
+        if goes_on || (low[axis] >= -REACHES_OUT && high[axis] <= end + REACHES_OUT) {
+            continue;
+        }
+        if let Endless::Around(_) = endless {
+            continue; // the wall of a pipe: all is solid at those faces
+        }
+        let problem = format!(
+            "it reaches across a periodic face along {}, and would be cut off there",
+            AXES[axis]
+        );
+        let remedy = "make it smaller, move it (`centre`), or take faces that are not periodic";
+        return Err(Trouble::new(key, problem, remedy));
+    }
+    Ok(())
+}
+
+/// Errors unless something of it lies in the domain and leaves room for fluid; all of it, if it moves.
+fn is_there(
+    key: &str,
+    shares: &[(usize, f64)],
+    (form, moves): (&Form, bool),
+    (domain, units): (&Domain, &Units),
+) -> Result<(), Trouble> {
+    let inside: f64 = shares.iter().map(|(_, share)| share).sum();
+    let [x, y, z] = domain.cells().map(|n| n as f64 * units.si_dx);
+    if shares.is_empty() {
+        let problem =
+            format!("nothing of the body lies in the domain ({x:.4e} x {y:.4e} x {z:.4e} m)");
+        return Err(Trouble::new(
+            key,
+            problem,
+            "lengths are in metres; move it, or look at `scale` and `origin`",
+        ));
+    }
+    if inside >= domain.cell_count() as f64 * (1.0 - 1e-9) {
+        let problem = "the body fills the whole domain, no fluid is left";
+        return Err(Trouble::new(
+            key,
+            problem,
+            "lengths are in metres; make it smaller, or turn `normal` round",
+        ));
+    }
+    let volume = form.mesh.volume();
+    if moves && inside < volume * (1.0 - 1e-6) {
+        let problem = format!(
+            "{:.1} % of a body that moves lie outside of the domain ({x:.4e} x {y:.4e} x {z:.4e} m)",
+            100.0 * (1.0 - inside / volume)
+        );
+        return Err(Trouble::new(key, problem, "move it, or make the domain larger"));
+    }
+    Ok(())
+}
