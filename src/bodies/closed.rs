@@ -4,24 +4,76 @@
 use std::collections::HashMap;
 
 use psmrt_reference::lattice::Vec3;
+use thiserror::Error;
 
-use super::mesh::{Mesh, MeshError};
+/// Triangles that are no closed surface. Triangles are counted from 0, in the order in which they are given.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum MeshError {
+    /// None.
+    #[error("it has no triangles")]
+    Empty,
+    /// Too many to be counted.
+    #[error("it has {count} triangles; fewer than 2^31 are read")]
+    TooMany {
+        /// How many.
+        count: usize,
+    },
+    /// An edge with a triangle on one side only.
+    #[error(
+        "it has a hole: no triangle joins triangle {triangle} (from 0) along its edge from {from:?} to {to:?}"
+    )]
+    Open {
+        /// The triangle on the one side.
+        triangle: usize,
+        /// Begin of the edge.
+        from: [f64; 3],
+        /// End of the edge.
+        to: [f64; 3],
+    },
+    /// Neighbours of which one faces inward.
+    #[error(
+        "triangles {first} and {second} (from 0) run along the edge that they share in the same direction: one of them is turned over"
+    )]
+    TurnedOver {
+        /// One.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// All face inward.
+    #[error("its triangles face inward: it has a volume of {volume:.4e} of its cubic units")]
+    InsideOut {
+        /// The volume.
+        volume: f64,
+    },
+    /// Triangles that cross.
+    #[error("triangles {first} and {second} (from 0) cross each other")]
+    Crossing {
+        /// One.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+}
 
 /// Errors unless it is closed and does not cross itself.
-pub(super) fn check(mesh: &Mesh) -> Result<(), MeshError> {
-    let count = mesh.triangles().len();
+pub(super) fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    let count = triangles.len();
+    if count == 0 {
+        return Err(MeshError::Empty);
+    }
     if count >= 1 << 31 {
         return Err(MeshError::TooMany { count });
     }
-    edges(mesh)?;
-    crossings(mesh)
+    edges(vertices, triangles)?;
+    crossings(vertices, triangles)
 }
 
 /// Each edge must be run along as often one way as the other. (More than once each way: parts that touch there.)
-fn edges(mesh: &Mesh) -> Result<(), MeshError> {
+fn edges(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     // By its ends, the smaller number first: how often it is run along upward less downward, and the triangles that do.
     let mut known: HashMap<[u32; 2], (i32, [Option<usize>; 2])> = HashMap::new();
-    for (number, &[a, b, c]) in mesh.triangles().iter().enumerate() {
+    for (number, &[a, b, c]) in triangles.iter().enumerate() {
         if a == b || b == c || c == a {
             continue; // a line, which joins its neighbours: it has nothing inside
         }
@@ -40,15 +92,17 @@ fn edges(mesh: &Mesh) -> Result<(), MeshError> {
     let mut open: Vec<_> = known.into_iter().filter(|(_, (sum, _))| *sum != 0).collect();
     open.sort_by_key(|(_, (_, by))| by.iter().flatten().min().copied());
     let Some(([low, high], (sum, by))) = open.first() else { return Ok(()) };
-    let [low, high] = [low, high].map(|&n| <[f64; 3]>::from(mesh.vertices()[n as usize]));
+    let [low, high] = [low, high].map(|&n| <[f64; 3]>::from(vertices[n as usize]));
     let (way, [from, to]) = if *sum > 0 { (0, [low, high]) } else { (1, [high, low]) };
     Err(MeshError::Open { triangle: by[way].unwrap_or(0), from, to })
 }
 
 /// Triangles without a common corner must not cross. Boxes of space, about as large as triangles are, tell which are near.
-fn crossings(mesh: &Mesh) -> Result<(), MeshError> {
-    let corners: Vec<[Vec3; 3]> = mesh.corners().collect();
-    let [low, high] = mesh.bounds();
+fn crossings(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    let of_triangle = |triangle: &[u32; 3]| triangle.map(|n| vertices[n as usize]);
+    let corners: Vec<[Vec3; 3]> = triangles.iter().map(of_triangle).collect();
+    let first = [vertices[0]; 2];
+    let [low, high] = vertices.iter().fold(first, |[low, high], v| [low.inf(v), high.sup(v)]);
     let edges = corners.iter().map(|[a, b, c]| (b - a).norm().max((c - a).norm()));
     let mean = edges.sum::<f64>() / corners.len() as f64;
     // No more boxes along an axis than a thousand.
@@ -65,7 +119,7 @@ fn crossings(mesh: &Mesh) -> Result<(), MeshError> {
                 for z in first[2]..=last[2] {
                     let near = boxes.entry([x, y, z]).or_default();
                     for &other in near.iter() {
-                        if cross(mesh, &corners, other, number) {
+                        if cross(triangles, &corners, other, number) {
                             return Err(MeshError::Crossing { first: other, second: number });
                         }
                     }
@@ -78,8 +132,8 @@ fn crossings(mesh: &Mesh) -> Result<(), MeshError> {
 }
 
 /// Whether an edge of one goes through the inside of the other; not of neighbours, which share a corner.
-fn cross(mesh: &Mesh, corners: &[[Vec3; 3]], one: usize, other: usize) -> bool {
-    let [first, second] = [one, other].map(|n| mesh.triangles()[n]);
+fn cross(triangles: &[[u32; 3]], corners: &[[Vec3; 3]], one: usize, other: usize) -> bool {
+    let [first, second] = [one, other].map(|n| triangles[n]);
     if first.iter().any(|corner| second.contains(corner)) {
         return false;
     }

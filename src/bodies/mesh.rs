@@ -1,9 +1,8 @@
 //! A closed surface of triangles.
 
 use psmrt_reference::lattice::Vec3;
-use thiserror::Error;
 
-use super::closed;
+use super::closed::{self, MeshError};
 
 /// A closed surface of triangles that face outward: counter-clockwise, seen from outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,64 +11,11 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
 }
 
-/// Triangles that are no closed surface. Triangles are counted from 0, in the order in which they are given.
-#[derive(Clone, Debug, Error, PartialEq)]
-pub enum MeshError {
-    /// None.
-    #[error("it has no triangles")]
-    Empty,
-    /// Too many to be counted.
-    #[error("it has {count} triangles; fewer than 2^31 are read")]
-    TooMany {
-        /// How many.
-        count: usize,
-    },
-    /// An edge with a triangle on one side only.
-    #[error(
-        "it has a hole: no triangle joins triangle {triangle} (from 0) along its edge from {from:?} to {to:?}"
-    )]
-    Open {
-        /// The triangle on the one side.
-        triangle: usize,
-        /// Begin of the edge.
-        from: [f64; 3],
-        /// End of the edge.
-        to: [f64; 3],
-    },
-    /// Neighbours of which one faces inward.
-    #[error(
-        "triangles {first} and {second} (from 0) run along the edge that they share in the same direction: one of them is turned over"
-    )]
-    TurnedOver {
-        /// One.
-        first: usize,
-        /// The other.
-        second: usize,
-    },
-    /// All face inward.
-    #[error("its triangles face inward: it has a volume of {volume:.4e} of its cubic units")]
-    InsideOut {
-        /// The volume.
-        volume: f64,
-    },
-    /// Triangles that cross.
-    #[error("triangles {first} and {second} (from 0) cross each other")]
-    Crossing {
-        /// One.
-        first: usize,
-        /// The other.
-        second: usize,
-    },
-}
-
 impl Mesh {
     /// A surface. Errors, with the triangle, unless it is closed, faces outward and does not cross itself.
     pub fn new(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
-        if triangles.is_empty() {
-            return Err(MeshError::Empty);
-        }
+        closed::check(&vertices, &triangles)?;
         let mesh = Mesh { vertices, triangles };
-        closed::check(&mesh)?;
         let volume = mesh.volume();
         if volume.is_nan() || volume <= 0.0 {
             return Err(MeshError::InsideOut { volume });

@@ -11,7 +11,7 @@
 //! | `pose.rs` | where a body is and how it is turned |
 //! | `moving.rs` | bodies that move as prescribed |
 
-mod closed;
+pub mod closed;
 pub mod formula;
 pub mod mesh;
 pub mod moving;

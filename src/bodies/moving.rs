@@ -24,6 +24,15 @@ pub struct MovingBody {
     pub turn: UnitQuaternion<f64>,
 }
 
+/// The bodies that move, and what stands in their way.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    /// The bodies.
+    pub moving: Vec<MovingBody>,
+    /// How much of each cell the solids fill that do not move.
+    pub filled: Vec<f32>,
+}
+
 /// A body that cannot go on.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum BodyStop {

@@ -6,7 +6,8 @@ use std::io::Cursor;
 use psmrt_reference::lattice::Vec3;
 use thiserror::Error;
 
-use super::mesh::{Mesh, MeshError};
+use super::closed::MeshError;
+use super::mesh::Mesh;
 
 /// Bytes before the triangles of a binary file: a comment and their number.
 const HEAD: usize = 84;

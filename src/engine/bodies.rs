@@ -5,15 +5,7 @@ use psmrt_reference::solids::{Shape, Solid};
 
 use super::EngineStop;
 use super::coupled::Coupled;
-use crate::bodies::moving::MovingBody;
-
-/// The bodies that move, and what stands in their way.
-#[derive(Clone, Debug)]
-pub(super) struct Bodies {
-    pub(super) moving: Vec<MovingBody>,
-    /// How much of each cell the solids fill that do not move.
-    filled: Vec<f32>,
-}
+use crate::bodies::moving::{Bodies, MovingBody};
 
 impl Coupled {
     /// Lets these bodies move from now on.

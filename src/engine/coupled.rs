@@ -19,8 +19,8 @@ use psmrt_reference::lattice::{Populations, Vec3};
 use psmrt_reference::setup::Setup;
 use psmrt_reference::solids::{Grip, Load, Solid};
 
-use super::bodies::Bodies;
 use super::{Block, BoxMeans, CellState, DeviceError, EngineStop, FluidEngine, StartError};
+use crate::bodies::moving::Bodies;
 use crate::diagnosis::diagnosed;
 use crate::in_time::Drives;
 use crate::machine::{Beginning, Spent};

@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use nalgebra::UnitQuaternion;
+use psmrt::bodies::closed::MeshError;
 use psmrt::bodies::formula::{cuboid, cylinder, half_space, pipe};
-use psmrt::bodies::mesh::{Mesh, MeshError};
+use psmrt::bodies::mesh::Mesh;
 use psmrt::bodies::pose::Pose;
 use psmrt::bodies::shares::solid_shares;
 use psmrt::bodies::stl;
