@@ -19,9 +19,10 @@ pub struct MovingBody {
     /// The number of its `[[grains]]` section.
     pub section: usize,
     /// Its surface about its centre, as it is turned at the start.
-    pub mesh: Mesh,
+    mesh: Mesh,
+    volume: f64,
     /// How it is turned against that.
-    pub turn: UnitQuaternion<f64>,
+    turn: UnitQuaternion<f64>,
 }
 
 /// The bodies that move, and what stands in their way.
@@ -65,7 +66,8 @@ pub enum BodyStop {
 impl MovingBody {
     /// A body as it starts.
     pub fn new(solid: usize, section: usize, mesh: Mesh) -> Self {
-        MovingBody { solid, section, mesh, turn: UnitQuaternion::identity() }
+        let volume = mesh.volume();
+        MovingBody { solid, section, mesh, volume, turn: UnitQuaternion::identity() }
     }
 
     /// Turns it on by a step with this angular velocity, radians per step.
@@ -88,7 +90,7 @@ impl MovingBody {
         let shares =
             solid_shares(&Pose { centre: *centre, turn: self.turn }.place(&self.mesh), cells);
         let inside: f64 = shares.iter().map(|(_, share)| share).sum();
-        let missing = 1.0 - inside / self.mesh.volume();
+        let missing = 1.0 - inside / self.volume;
         let section = self.section;
         if missing > MAY_MISS { Err(BodyStop::Outside { section, missing }) } else { Ok(shares) }
     }
@@ -96,7 +98,7 @@ impl MovingBody {
     /// Errors if too much of it lies in cells that others fill already; `filled`: their share of each cell.
     pub fn keeps_out_of(&self, filled: &[f32], shares: &[(usize, f64)]) -> Result<(), BodyStop> {
         let both = |&(cell, share): &(usize, f64)| (f64::from(filled[cell]) + share - 1.0).max(0.0);
-        let common = shares.iter().map(both).sum::<f64>() / self.mesh.volume();
+        let common = shares.iter().map(both).sum::<f64>() / self.volume;
         let section = self.section;
         if common > MAY_MISS { Err(BodyStop::Into { section, common }) } else { Ok(()) }
     }
