@@ -12,6 +12,7 @@
 //! | `speed.rs` | how long it takes, measured on its first steps |
 //! | `warnings.rs`, `warnings/`, `warning.rs` | what looks risky, one topic a file |
 
+mod contacts;
 pub mod disk;
 pub(crate) mod grains;
 pub(crate) mod mapped;
