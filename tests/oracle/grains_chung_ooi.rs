@@ -199,13 +199,18 @@ fn chung_and_ooi_4_rebound_agrees_with_benchmark_and_experiment() {
         }
         let after = bounced(degrees);
         // Two digitisations differ by 2 % of full scale, which is 1, 600 rad/s and 90 degrees. Where the contact sticks for
-        // a part of the time (below 32 degrees) experiment and benchmark differ by as much again; the experiment's spins
-        // scatter by up to 8 %.
-        let sticks = if degrees < 32.0 { 0.04 } else { 0.02 };
+        // a part of the time (below 32 degrees) codes differ by as much again; and there the experiment has a rim that
+        // slips, which no spring has: as much once more. The experiment's spins scatter by up to 8 %.
+        let is_measured = name.contains("Kharaz");
+        let sticks = match (degrees < 32.0, is_measured) {
+            (true, true) => 0.06,
+            (true, false) => 0.04,
+            _ => 0.02,
+        };
         let (found, scale, tolerance) = if name.starts_with("et") {
             (after.velocity.x / (row.speed * degrees.to_radians().sin()), 1.0, sticks)
         } else if name.starts_with("omega") {
-            let scatter: f64 = if name.contains("Kharaz") { 0.08 } else { sticks };
+            let scatter: f64 = if is_measured { 0.08 } else { sticks };
             (-after.angular_velocity.y, 600.0, scatter)
         } else {
             let angle = (slip(&after) / after.velocity.z).atan().to_degrees();

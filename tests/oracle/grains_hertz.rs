@@ -13,6 +13,7 @@ use psmrt_reference::grains::laws::Law;
 use psmrt_reference::grains::plane::Plane;
 use psmrt_reference::grains::setup::GrainSetup;
 use psmrt_reference::grains::system::GrainSystem;
+use psmrt_reference::grains::touching::touching;
 use psmrt_reference::lattice::Vec3;
 
 /// A hard material, in units of radius and density of the sphere: overlaps of 1e-4 and less at the speeds below.
@@ -150,6 +151,9 @@ fn a_sphere_at_rest_sinks_to_the_overlap_of_hertz() {
     assert!((found / overlap - 1.0).abs() < 1e-9, "rests {found} deep, Hertz {overlap}");
     let force = system.contact_loads()[0].force.z;
     assert!((force / (mass * g) - 1.0).abs() < 1e-9, "the floor carries {force}");
+    // What records see is worked out anew from places and velocities.
+    let seen = touching(&system)[0].force.z;
+    assert!((seen / force - 1.0).abs() < 1e-9, "records see {seen}, and {force} acts");
 }
 
 /// Relative motion along x at `speed`.

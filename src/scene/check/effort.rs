@@ -21,9 +21,6 @@ const KEYS: [(&str, &str); 7] = [
 /// Place of `youngs_modulus` in [`KEYS`].
 const MODULUS: usize = 6;
 
-/// A modulus this much softer has contacts a million times as long.
-const SOFT_MODULUS: f64 = 1e-12;
-
 /// The two sections, with one key changed at a time.
 #[derive(Clone)]
 struct Keys {
@@ -65,10 +62,17 @@ impl Keys {
         changed
     }
 
-    /// The same with a key that costs nothing: absent, but for a modulus, without which contacts would be others.
-    fn relieved(&self, key: usize) -> Self {
-        let soft = (key == MODULUS).then_some(SOFT_MODULUS).zip(self.contact.youngs_modulus);
-        self.with(key, soft.map(|(share, modulus)| share * modulus))
+    /// The same with a key that is not to blame: absent, but for a modulus, without which contacts would be others.
+    fn relieved(&self, key: usize, maker: &Maker) -> Self {
+        self.with(key, if key == MODULUS { self.soft_modulus(maker) } else { None })
+    }
+
+    /// A modulus with which contacts are twice as long as they must be, Pa: times go as its root.
+    fn soft_modulus(&self, maker: &Maker) -> Option<f64> {
+        let (setup, _) = maker.make(&self.contact, self.lubrication.as_ref()).ok()?;
+        let si_modulus = setup.law.hertz()?.material.youngs_modulus * maker.units.si_pressure();
+        let affordable = SUBSTEPS_PER_CONTACT / f64::from(MOST_SUBSTEPS);
+        Some(si_modulus * (0.5 * self.shortest_time(maker) / affordable).powi(2))
     }
 
     /// The shortest time that sub-steps must resolve, time steps; for ever if a value cannot be used.
@@ -85,7 +89,7 @@ impl Keys {
     /// The value of a key that the section leaves to us, in SI units.
     fn default_of(&self, key: usize, maker: &Maker) -> Option<f64> {
         if key == MODULUS {
-            return self.relieved(key).contact.youngs_modulus;
+            return self.soft_modulus(maker);
         }
         let absent = self.with(key, None);
         let (setup, _) = maker.make(&absent.contact, absent.lubrication.as_ref()).ok()?;
@@ -132,10 +136,10 @@ pub(super) fn check(
 /// Blames the key without which there would be fewest.
 fn too_many(keys: &Keys, maker: &Maker) -> Trouble {
     let given = |key: usize| keys.clone().key(key).and_then(|value| *value);
-    let without = |key: &usize| keys.relieved(*key).shortest_time(maker);
+    let without = |key: &usize| keys.relieved(*key, maker).shortest_time(maker);
     let blamed = (0..KEYS.len())
         .filter(|&key| given(key).is_some())
-        .filter(|key| keys.relieved(*key).is_affordable(maker))
+        .filter(|key| keys.relieved(*key, maker).is_affordable(maker))
         .max_by(|one, two| without(one).total_cmp(&without(two)));
     let found = blamed.and_then(|key| Some((key, given(key)?, keys.default_of(key, maker)?)));
     let Some((key, value, good)) = found else { return heavy(keys, maker) };

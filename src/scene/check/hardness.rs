@@ -1,6 +1,6 @@
 //! How hard contacts must be: what weight and impacts ask of the stiffness of the normal spring.
 //!
-//! All contacts of a scene have one linear spring, of stiffness `k`. What presses on it, in SI words:
+//! All linear contacts of a scene have one spring, of stiffness `k`. What presses on it, in SI words:
 //!
 //! *A bed at rest.* The free grains weigh `W = Σ (m_s - m_f) g`, less buoyancy. If they come to rest on the
 //! area `A` of the domain across gravity, they press on the floor with `p = W/A`. A grain of diameter `d`
