@@ -260,6 +260,33 @@ fn a_tangential_spring_never_gives_back_more_than_it_took() {
 }
 
 #[test]
+fn sub_steps_resolve_the_contacts_of_all_pairs_however_unequal() {
+    let plain = HertzLaw::between([MATERIAL; 2], 0.3).unwrap().with_friction(0.5).unwrap();
+    let grain = |radius: f64, density: f64| Grain::sphere(Vec3::zeros(), radius, density);
+    let sizes = [(1.0, 1.0), (0.3, 2.0), (3.0, 0.1), (0.3, 40.0), (10.0, 1.0)];
+    let grains = sizes.map(|(radius, density)| grain(radius, density));
+    let shortest = Law::Hertz(plain).shortest_time(&grains);
+    let mut found = f64::INFINITY;
+    for (number, one) in grains.iter().enumerate() {
+        for two in &grains[number..] {
+            let radius = one.radius * two.radius / (one.radius + two.radius);
+            let mass = one.mass * two.mass / (one.mass + two.mass);
+            found = found.min(plain.shortest_time(one.radius.min(two.radius), radius, mass));
+        }
+        // Against one that is held, however large.
+        found = found.min(plain.shortest_time(one.radius, one.radius, one.mass));
+    }
+    // Each with its own double is among the pairs: the bound is met, up to round-off.
+    assert!((found / shortest - 1.0).abs() < 1e-12, "resolved {shortest}, shortest {found}");
+    // About Rayleigh's time with friction and twice it without: what the doc comment says.
+    for (law, wanted) in [(plain, 1.0), (HertzLaw { friction: None, ..plain }, 2.0)] {
+        let time = Law::Hertz(law).shortest_time(&[grain(1.0, 1.0)]);
+        let share = time / MATERIAL.rayleigh_time(1.0, 1.0);
+        assert!((share / wanted - 1.0).abs() < 0.3, "{share} of Rayleigh's time, not {wanted}");
+    }
+}
+
+#[test]
 fn values_that_cannot_be_are_refused_by_name() {
     let with = |youngs_modulus: f64, poisson_ratio: f64, e: f64| {
         HertzLaw::on_rigid(Elastic { youngs_modulus, poisson_ratio }, e).unwrap_err().to_string()

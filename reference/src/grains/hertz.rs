@@ -75,6 +75,17 @@ impl Elastic {
         PI * radius * slowness / (0.1631 * self.poisson_ratio + 0.8766)
     }
 
+    /// Errors unless the material can be used.
+    fn checked(&self) -> Result<(), LawError> {
+        positive("Young's modulus", self.youngs_modulus)?;
+        let value = self.poisson_ratio;
+        if (0.0..=0.5).contains(&value) {
+            return Ok(());
+        }
+        let allowed = "must lie between 0 and 0.5; most solids have 0.2 to 0.4";
+        Err(LawError::BadValue { key: "Poisson's ratio", value, allowed })
+    }
+
     /// `(1 - ν²)/E` and `(2 - ν)/G`.
     fn compliances(&self) -> [f64; 2] {
         let Elastic { youngs_modulus, poisson_ratio } = *self;
@@ -113,8 +124,9 @@ impl HertzLaw {
     /// A law without friction between two materials, under which bodies part at `restitution` times the speed at which
     /// they met. Errors unless both materials are elastic and the restitution lies in `0.01..=1`.
     pub fn between([one, two]: [Elastic; 2], restitution: f64) -> Result<Self, LawError> {
-        let [near, far] = [one.compliances(), two.compliances()];
+        one.checked()?;
         two.checked()?;
+        let [near, far] = [one.compliances(), two.compliances()];
         let softer = if two.youngs_modulus < one.youngs_modulus { two } else { one };
         Self::of(softer, [near[0] + far[0], near[1] + far[1]], restitution)
     }
@@ -209,19 +221,6 @@ impl HertzLaw {
     fn frequency(&self, radius: f64, mass: f64) -> f64 {
         // ω₀ = √(K/(5 m/4)),  K = (4/3) E* √R*
         (4.0 / 3.0 * self.modulus * radius.sqrt() / (1.25 * mass)).sqrt()
-    }
-}
-
-impl Elastic {
-    /// Errors unless the material can be used.
-    fn checked(&self) -> Result<(), LawError> {
-        positive("Young's modulus", self.youngs_modulus)?;
-        let value = self.poisson_ratio;
-        if (0.0..=0.5).contains(&value) {
-            return Ok(());
-        }
-        let allowed = "must lie between 0 and 0.5; most solids have 0.2 to 0.4";
-        Err(LawError::BadValue { key: "Poisson's ratio", value, allowed })
     }
 }
 

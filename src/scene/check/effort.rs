@@ -174,6 +174,18 @@ fn heavy(keys: &Keys, maker: &Maker) -> Trouble {
     let (short, units) = (keys.shortest_time(maker) / SUBSTEPS_PER_CONTACT, maker.units);
     let factor = short * f64::from(MOST_SUBSTEPS);
     let law = maker.make(&keys.contact, keys.lubrication.as_ref()).map(|(setup, _)| setup.law);
+    if law.as_ref().is_ok_and(|law| law.hertz().is_some()) {
+        let problem = format!(
+            "a time step would take {:.0} sub-steps; {MOST_SUBSTEPS} is the limit",
+            1.0 / short
+        );
+        let si_dt = 0.98 * factor * units.si_dt;
+        return Trouble::new(
+            "contact",
+            problem,
+            format!("shorten the time step to {si_dt:.2e} s or less"),
+        );
+    }
     let stiffness = law.ok().and_then(|law| law.linear().map(|law| law.stiffness));
     let si_stiffness = stiffness.unwrap_or(0.0) * units.si_stiffness();
     let problem = format!(

@@ -261,7 +261,7 @@ pub const BAD: &[Bad] = &[
     Bad("duration = 6e-4", "stiffness = 3.0\nyoungs_modulus = 1e5", "contact.stiffness", "elastic spheres"),
     Bad("duration = 6e-4", "damping = 3.0\nyoungs_modulus = 1e5", "contact.damping", "elastic spheres"),
     Bad("duration = 6e-4", "duration = 6e-4\npoisson_ratio = 0.2", "contact.poisson_ratio", "applies to `youngs_modulus`"),
-    Bad("duration = 6e-4", "duration = 6e-4\nyoung = 1e5", "contact.young", "write `youngs_modulus"),
+    Bad("duration = 6e-4", "duration = 6e-4\nyoung = 1e5", "contact.young", "psmrt calls it `youngs_modulus`"),
     Bad("duration = 6e-4\nrestitution = 0.6\nfriction = 0.4\ntangential_ratio = 0.3", "youngs_modulus = -1.0", "contact.youngs_modulus", "above 0"),
     Bad("duration = 6e-4\nrestitution = 0.6\nfriction = 0.4\ntangential_ratio = 0.3", "youngs_modulus = nan", "contact.youngs_modulus", "above 0"),
     Bad("duration = 6e-4\nrestitution = 0.6\nfriction = 0.4\ntangential_ratio = 0.3", "youngs_modulus = 1e5\npoisson_ratio = 0.6", "contact.poisson_ratio", "between 0 and 0.5"),
