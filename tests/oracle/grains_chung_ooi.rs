@@ -214,7 +214,8 @@ fn chung_and_ooi_4_rebound_agrees_with_benchmark_and_experiment() {
             (-after.angular_velocity.y, 600.0, scatter)
         } else {
             let angle = (slip(&after) / after.velocity.z).atan().to_degrees();
-            (angle, 90.0, sticks)
+            // Of the experiment it is worked out from the spin, 8 % of which are 1.6 degrees at 60 degrees.
+            (angle, 90.0, if is_measured { sticks.max(0.04) } else { sticks })
         };
         assert!(
             (found - value).abs() < tolerance * scale,
