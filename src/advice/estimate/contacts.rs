@@ -5,15 +5,19 @@ use psmrt_reference::grains::hertz::{HertzLaw, RESOLVED_OVERLAP};
 use psmrt_reference::grains::law::ContactLaw;
 use psmrt_reference::grains::laws::Law;
 
-use super::grains::{burden, free};
 use super::number::{Number, number};
 use crate::scene::{FreePart, Scene};
 
-/// The numbers of the contact law.
-pub(super) fn numbers(scene: &Scene, part: &FreePart) -> Vec<Number> {
+/// The grains that move.
+fn free(part: &FreePart) -> impl Iterator<Item = &Grain> {
+    part.grains.iter().filter(|grain| !grain.held)
+}
+
+/// The numbers of the contact law. `impact`: the largest speed at which a grain falls on something, cells per time step.
+pub(super) fn numbers(scene: &Scene, part: &FreePart, impact: f64) -> Vec<Number> {
     match &part.setup.law {
         Law::Linear(law) => linear(scene, part, law),
-        Law::Hertz(law) => hertz(scene, part, law),
+        Law::Hertz(law) => hertz(scene, part, law, impact),
     }
 }
 
@@ -35,14 +39,14 @@ fn linear(scene: &Scene, part: &FreePart, law: &ContactLaw) -> Vec<Number> {
     ]
 }
 
-fn hertz(scene: &Scene, part: &FreePart, law: &HertzLaw) -> Vec<Number> {
+fn hertz(scene: &Scene, part: &FreePart, law: &HertzLaw, impact: f64) -> Vec<Number> {
     let units = &scene.units;
     let Some(lightest) = free(part).min_by(|one, two| one.mass.total_cmp(&two.mass)) else {
         return Vec::new();
     };
     let (radius, mass) = (0.5 * lightest.radius, 0.5 * lightest.mass);
     // The fastest impact, or the deepest that sub-steps resolve.
-    let (duration, which) = match burden(scene, part).speed() {
+    let (duration, which) = match impact {
         speed if speed > 0.0 => {
             let si_speed = speed * units.si_velocity();
             (law.duration(radius, mass, speed), format!("that meet at {si_speed:.2e} m/s"))

@@ -64,7 +64,7 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         number("free grains", count as f64, "", format!("of {}", part.grains.len())),
         number("density ratio", low, "", note),
     ];
-    numbers.extend(contacts::numbers(scene, part));
+    numbers.extend(contacts::numbers(scene, part, burden(scene, part).speed()));
     numbers.push(number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")));
     if let Some((settle, _)) = stokes_velocity(scene) {
         let Overlaps { in_bed, one_on_one, in_impact } =
