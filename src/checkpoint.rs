@@ -2,7 +2,7 @@
 //!
 //! | bytes | what |
 //! |---|---|
-//! | 8 | `PSMRTCK5`: the digit is the version of this format |
+//! | 8 | `PSMRTCK6`: the digit is the version of this format |
 //! | 8 | length of the header |
 //! | | header, JSON: [`Header`] |
 //! | | the engine's state |
@@ -28,7 +28,7 @@ use crate::scene::{Scene, names};
 
 pub use header::{Header, InputFile, Progress, SteadyWatch};
 
-const MAGIC: &[u8; 8] = b"PSMRTCK5";
+const MAGIC: &[u8; 8] = b"PSMRTCK6";
 
 /// How the magic of all versions begins.
 const ANY_VERSION: &[u8] = b"PSMRTCK";

@@ -4,6 +4,7 @@ use std::fmt;
 
 use psmrt_reference::coupling::Gravity;
 use psmrt_reference::grains::hold::{self, DEEPEST, Sunk, SunkInto};
+use psmrt_reference::grains::laws::Law;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::{Vec3, viscosity};
@@ -11,7 +12,9 @@ use thiserror::Error;
 
 use crate::engine::{Coupled, EngineStop};
 use crate::scene::check::MAX_SPEED;
-use crate::scene::check::hardness::{Burden, IN_IMPACT, ONE_ON_ONE};
+use crate::scene::check::hardness::{
+    Burden, IN_IMPACT, ONE_ON_ONE, harder_at_rest, harder_in_impact,
+};
 use crate::scene::{FreePart, Scene};
 
 /// A run that stopped at a free grain.
@@ -97,27 +100,25 @@ impl Situation<'_> {
             sunk.overlap * units.si_dx,
             sunk.depth(),
         );
-        let stiffness = self.part.setup.law.stiffness;
+        let law = &self.part.setup.law;
         let diameter = 2.0 * sunk.radius;
-        let overlaps = self.burden().overlaps(stiffness);
+        let overlaps = self.burden().overlaps(law);
         let at_rest = overlaps.in_bed.max(overlaps.one_on_one);
         let speed = grain.velocity.norm();
-        // m v² = k δ²
         let arrives = sunk.approach.max(0.0);
-        let stopping = arrives * (mass / stiffness).sqrt();
+        let stopping = law.overlap_of_impact(arrives, sunk.radius, mass);
         if let Some(words) = self.overlap_at_start(sunk.grain, speed) {
             return (failure, words.0, words.1);
         }
         // What would have held it: at rest, in the impact, and against what has pressed it in.
-        let asked = self.burden().stiffness();
-        let pressed = stiffness * sunk.overlap / (ONE_ON_ONE * diameter);
-        let impact = mass * arrives * arrives / (IN_IMPACT * diameter).powi(2);
+        let asked = self.burden().asks_of(law);
+        let pressed = harder_at_rest(law, sunk.overlap / (ONE_ON_ONE * diameter));
+        let impact = harder_in_impact(law, stopping / (IN_IMPACT * diameter));
         let harder = self.harder(asked.max(pressed).max(impact));
+        let hardness = self.hardness();
         if at_rest > 0.5 * DEEPEST {
             let cause = format!(
-                "contacts are too soft: at a stiffness of {:.3e} N/m weight causes overlaps of {at_rest:.2e} of a \
-                 diameter",
-                stiffness * units.si_stiffness()
+                "contacts are too soft: at a {hardness} weight causes overlaps of {at_rest:.2e} of a diameter"
             );
             return (failure, cause, harder);
         }
@@ -137,17 +138,15 @@ impl Situation<'_> {
         }
         let cause = if stopping > 0.1 * sunk.radius {
             format!(
-                "contacts are too soft for the speed at which it arrives ({:.3e} m/s): at {:.3e} N/m they stop it in \
+                "contacts are too soft for the speed at which it arrives ({:.3e} m/s): at a {hardness} they stop it in \
                  {:.1e} m",
                 arrives * units.si_velocity(),
-                stiffness * units.si_stiffness(),
                 stopping * units.si_dx
             )
         } else {
             format!(
-                "contacts are too soft ({:.3e} N/m) for the {:.2e} N with which fluid and other grains press on it",
-                stiffness * units.si_stiffness(),
-                stiffness * sunk.overlap * units.si_force()
+                "contacts are too soft ({hardness}) for the {:.2e} N with which fluid and other grains press on it",
+                law.at(sunk.overlap, sunk.radius, mass).stiffness * sunk.overlap * units.si_force()
             )
         };
         (failure, cause, harder)
@@ -198,8 +197,9 @@ impl Situation<'_> {
         let FreePart { setup, grains, planes, .. } = self.part;
         let start = GrainSystem::new(*setup, grains.clone(), planes.clone()).ok()?;
         let at_start = hold::deepest_of(&start, grain)?;
-        // k δ²/2 = m v²/2; a part of it is enough to blame it.
-        let thrown = at_start.overlap * (setup.law.stiffness / grains[grain].mass).sqrt();
+        // A part of it is enough to blame it.
+        let overlap = at_start.overlap.max(0.0);
+        let thrown = setup.law.speed_of_release(overlap, at_start.radius, grains[grain].mass);
         if at_start.overlap <= 0.0 || speed == 0.0 || thrown < 0.5 * speed {
             return None;
         }
@@ -218,14 +218,39 @@ impl Situation<'_> {
         Burden::new(&self.part.grains, &g, &setup.domain, viscosity(setup.collision.tau()))
     }
 
-    /// The remedy of stiffer contacts.
-    fn harder(&self, stiffness: f64) -> String {
-        let chosen = match self.part.setup.law.stiffness < 0.99 * self.burden().stiffness() {
-            true => "leave `stiffness` and `duration` of [contact] out to have them chosen, or ",
-            false => "",
-        };
-        let si_stiffness = 1.01 * stiffness * self.scene.units.si_stiffness();
-        format!("{chosen}use contact.stiffness = {si_stiffness:.2e} (N/m) or more")
+    /// The remedy of contacts that are so many times as stiff.
+    fn harder(&self, times: f64) -> String {
+        let (law, units) = (&self.part.setup.law, &self.scene.units);
+        match law {
+            Law::Linear(linear) => {
+                let chosen = match self.burden().asks_of(law) > 1.0 / 0.99 {
+                    true => {
+                        "leave `stiffness` and `duration` of [contact] out to have them chosen, or "
+                    }
+                    false => "",
+                };
+                let si_stiffness = 1.01 * times * linear.stiffness * units.si_stiffness();
+                format!("{chosen}use contact.stiffness = {si_stiffness:.2e} (N/m) or more")
+            }
+            Law::Hertz(law) => {
+                let si_modulus = 1.01 * times * law.material.youngs_modulus * units.si_pressure();
+                format!("use contact.youngs_modulus = {si_modulus:.2e} (Pa) or more")
+            }
+        }
+    }
+
+    /// How hard contacts are, in words.
+    fn hardness(&self) -> String {
+        let units = &self.scene.units;
+        match &self.part.setup.law {
+            Law::Linear(law) => {
+                format!("stiffness of {:.3e} N/m", law.stiffness * units.si_stiffness())
+            }
+            Law::Hertz(law) => {
+                let si_modulus = law.material.youngs_modulus * units.si_pressure();
+                format!("modulus of {si_modulus:.3e} Pa")
+            }
+        }
     }
 
     /// The remedy of a shorter time step, with which a grain of this speed is slow enough.

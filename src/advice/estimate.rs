@@ -8,10 +8,12 @@
 //! | `models.rs` | which models are on, each with the reason |
 //! | `grains.rs` | both for free grains, and what their warnings rest on |
 //! | `seepage.rs` | gradient, Re and time to steadiness of a bed that fluid seeps through |
+//! | `contacts.rs` | how they touch, by either law |
 //! | `velocity.rs`, `mapped.rs` | how fast it will be, and with which map of stability it compares |
 //! | `speed.rs` | how long it takes, measured on its first steps |
 //! | `warnings.rs`, `warnings/`, `warning.rs` | what looks risky, one topic a file |
 
+mod contacts;
 pub mod disk;
 pub(crate) mod grains;
 pub(crate) mod mapped;

@@ -94,13 +94,14 @@ fn load_of(from: &mut dyn Read) -> io::Result<Load> {
 }
 
 fn put_memory(out: &mut dyn Write, memory: &ContactMemory) -> io::Result<()> {
-    let ContactMemory { normal, spring, rolling } = memory;
-    [normal, spring, rolling].into_iter().try_for_each(|vector| put_vector(out, vector))
+    let ContactMemory { normal, spring, rolling, overlap } = memory;
+    [normal, spring, rolling].into_iter().try_for_each(|vector| put_vector(out, vector))?;
+    put_real(out, *overlap)
 }
 
 fn memory(from: &mut dyn Read) -> io::Result<ContactMemory> {
     let (normal, spring, rolling) = (vector(from)?, vector(from)?, vector(from)?);
-    Ok(ContactMemory { normal, spring, rolling })
+    Ok(ContactMemory { normal, spring, rolling, overlap: real(from)? })
 }
 
 fn pair_contact(from: &mut dyn Read, grains: usize) -> io::Result<PairContact> {

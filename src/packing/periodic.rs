@@ -82,7 +82,7 @@ impl PeriodicPacking {
     ) -> Result<Packing, PackingError> {
         let mut system = self.thrown_in(sides, seed)?;
         let substep = system.shortest_time() / 15.0;
-        let stiffness = system.setup().law.stiffness;
+        let stiffness = system.setup().law.linear().map_or(0.0, |law| law.stiffness);
         let drag = |grain: &Grain| DRAG * (stiffness * grain.mass).sqrt();
         let mut loads = vec![Load::default(); self.radii.len()];
 

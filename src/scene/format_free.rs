@@ -6,8 +6,10 @@ use serde::Deserialize;
 use super::format_time::VectorInTime;
 
 /// Contacts of free grains with each other, with fixed and prescribed grains, and with the faces of the domain: a
-/// spring and a dashpot (Voigt) with Coulomb friction. Give the normal spring by `stiffness` or by `duration`, the
-/// dashpot by `damping` or by `restitution`. A free grain that overlaps another grain or a face by more than half its
+/// spring and a dashpot (Voigt) with Coulomb friction. Linear contacts have one stiffness: give the normal spring by
+/// `stiffness` or by `duration`, the dashpot by `damping` or by `restitution`. With `youngs_modulus` contacts are those of
+/// elastic spheres (Hertz and Mindlin), which get stiffer as they are pressed together; `restitution`, `friction`,
+/// `rolling_resistance` and `substeps` then mean the same. A free grain that overlaps another grain or a face by more than half its
 /// radius, or that a contact ejects, stops the run.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -25,6 +27,14 @@ pub struct ContactSection {
     /// Instead of `damping`: coefficient of restitution of such an impact in vacuum, 0.01 to 1; 0.5 where neither is
     /// given.
     pub restitution: Option<f64>,
+    /// Instead of `stiffness` or `duration`: Young's modulus of the grains and of the faces of the domain, Pa. The normal
+    /// force is Hertz's, `(4/3) E* √(R* δ) δ` with the overlap `δ`, `E* = E/(2 (1 - ν²))` and `1/R* = 1/R₁ + 1/R₂` (on a face
+    /// the radius); the tangential spring is Mindlin's, `8 G* √(R* δ)` per length. Sub-steps resolve contacts that overlap by a
+    /// tenth of a radius, about 4 % of Rayleigh's time with friction; they go as the root of the modulus, so that a modulus
+    /// far below the material's is usual: choose it so that `psmrt check` shows overlaps of less than 1 %.
+    pub youngs_modulus: Option<f64>,
+    /// With `youngs_modulus`: Poisson's ratio, 0 to 0.5; 0.3 where absent.
+    pub poisson_ratio: Option<f64>,
     /// Coulomb's coefficient of friction, 0 (smooth grains) to 10; 0.5 where absent.
     pub friction: Option<f64>,
     /// Ratio of tangential to normal stiffness, and of the dampings, 0.001 to 10; 2/7 where absent, with which a

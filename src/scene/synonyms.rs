@@ -1,7 +1,7 @@
 //! Words of neighbouring codes and textbooks for what scenes call otherwise.
 
 /// Keys: another name, and psmrt's.
-const KEYS: [(&str, &str); 29] = [
+const KEYS: [(&str, &str); 33] = [
     ("nu", "kinematic_viscosity"),
     ("rho", "density"),
     ("delta_x", "dx"),
@@ -22,7 +22,11 @@ const KEYS: [(&str, &str); 29] = [
     ("max_steps", "steps"),
     ("end_time", "time"),
     ("lambda", "magic"),
-    ("young", "stiffness"),
+    ("young", "youngs_modulus"),
+    ("young_modulus", "youngs_modulus"),
+    ("elastic_modulus", "youngs_modulus"),
+    ("poisson", "poisson_ratio"),
+    ("poissons_ratio", "poisson_ratio"),
     ("coefficient_of_restitution", "restitution"),
     ("nonreflecting", "non_reflecting"),
     ("non_reflective", "non_reflecting"),

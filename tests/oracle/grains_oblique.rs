@@ -200,7 +200,7 @@ fn a_sliding_contact_is_on_coulomb_s_cone_and_its_spring_agrees() {
         let relative = Relative::new(&geometry, [&motion(slide, approach), &motion(0.0, 0.0)]);
         // In contact before: all of the sub-step counts.
         let (spring, rolling) = (Vec3::zeros(), Vec3::zeros());
-        let mut memory = Some(ContactMemory { normal: Vec3::z(), spring, rolling });
+        let mut memory = Some(ContactMemory { normal: Vec3::z(), spring, rolling, overlap: 0.1 });
         let law = rough(0.5);
         let force =
             contact_force(&law, &geometry, [&relative; 2], 10.0, &mut memory).unwrap().force;
@@ -229,6 +229,7 @@ fn springs_turn_with_a_pair_that_turns_as_a_rigid_body() {
         normal: Vec3::z(),
         spring: Vec3::new(0.2, 0.1, 0.0),
         rolling: Vec3::zeros(),
+        overlap: 0.1,
     };
     let error = |steps: u32| {
         let dt = 2.0 / f64::from(steps);

@@ -199,7 +199,7 @@ fn half_written_files_of_a_killed_process_are_removed_on_resume_and_others_stay(
     until("a checkpoint", || !checkpoints(&out).is_empty());
     end(child);
     let [half, mine] = ["checkpoints/psmrt-Ab12Cd.part", "notes.part"].map(|name| out.join(name));
-    fs::write(&half, "PSMRTCK5").unwrap();
+    fs::write(&half, "PSMRTCK6").unwrap();
     fs::write(&mine, "of the user").unwrap();
     let output = psmrt(&["resume", out.to_str().unwrap()]);
     assert!(output.status.success(), "{}", stderr(&output));

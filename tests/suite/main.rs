@@ -71,6 +71,7 @@ mod scene_check;
 mod scene_contacts;
 mod scene_free;
 mod scene_gravity;
+mod scene_hertz;
 mod scene_lists;
 mod scene_mutations;
 mod scene_open_faces;

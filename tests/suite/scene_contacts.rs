@@ -104,7 +104,7 @@ fn the_default_stiffness_is_what_weight_and_impacts_ask_for_at_any_time_step() {
     }
     // With a short time step ten steps are shorter than that: then contacts last ten steps, as ever.
     let short = scene(&BED.replace("tau = 0.8", "tau = 0.505"));
-    let law = short.free.as_ref().unwrap().setup.law;
+    let law = *short.free.as_ref().unwrap().setup.law.linear().unwrap();
     let pair = 0.5 * short.free.as_ref().unwrap().grains[0].mass;
     assert!((law.duration(pair) - 10.0).abs() < 1e-9, "{}", law.duration(pair));
 }

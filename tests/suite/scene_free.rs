@@ -48,11 +48,12 @@ fn keys_in_si_units_become_the_law_that_they_describe() {
     // Mass of the free grain, kg, and what two of them and a wall must do.
     let mass = 2500.0 * PI / 6.0 * 2e-4_f64.powi(3);
     assert_close(part.grains[0].mass * units.si_mass(), mass);
-    let law = part.setup.law;
+    let law = *part.setup.law.linear().unwrap();
     let (pair, one) = (0.5 * part.grains[0].mass, part.grains[0].mass);
     assert_close(law.duration(pair) * units.si_dt, 2e-4);
     assert_close(law.restitution(pair), 0.7);
     let wall = part.planes.iter().find(|plane| plane.normal.z == 1.0).unwrap().law;
+    let wall = *wall.linear().unwrap();
     assert_close(wall.stiffness, law.stiffness);
     assert_close(wall.restitution(one), 0.7);
     let friction = law.friction.unwrap();
@@ -67,7 +68,7 @@ fn keys_in_si_units_become_the_law_that_they_describe() {
     // Stiffness by itself: N/m.
     let direct =
         SCENE.replace("duration = 2e-4\nrestitution = 0.7", "stiffness = 3.0\ndamping = 1e-6");
-    let law = self::part(&direct).1.setup.law;
+    let law = *self::part(&direct).1.setup.law.linear().unwrap();
     assert_close(law.stiffness * units.si_stiffness(), 3.0);
     assert_close(law.damping * units.si_damping(), 1e-6);
 }
@@ -77,7 +78,7 @@ fn without_a_contact_section_contacts_last_ten_steps() {
     let start = SCENE.find("[contact]").unwrap();
     let end = SCENE.find("[stop]").unwrap();
     let (_, part) = part(&format!("{}{}", &SCENE[..start], &SCENE[end..]));
-    let law = part.setup.law;
+    let law = *part.setup.law.linear().unwrap();
     let pair = 0.5 * part.grains[0].mass;
     assert_close(law.duration(pair), 10.0);
     assert_close(law.restitution(pair), 0.5);
@@ -107,7 +108,8 @@ fn all_faces_but_periodic_ones_hold_free_grains_back() {
     assert_eq!(normals, wanted);
     assert_eq!(part.setup.sides.lengths, [Some(20.0), None, None]);
     // The mirror is smooth, the sieve and the walls are not, and one wall moves.
-    let smooth: Vec<_> = part.planes.iter().map(|plane| plane.law.friction.is_none()).collect();
+    let smooth: Vec<_> =
+        part.planes.iter().map(|plane| plane.law.linear().unwrap().friction.is_none()).collect();
     assert_eq!(smooth, [true, false, false, false]);
     assert!(part.planes[3].velocity.x > 0.0 && part.planes[2].velocity.x == 0.0);
 }

@@ -27,6 +27,8 @@ pub struct ContactMemory {
     pub spring: Vec3,
     /// Rolling spring, radians.
     pub rolling: Vec3,
+    /// Overlap then, length: under Hertz's law the springs depend on how it has changed.
+    pub overlap: f64,
 }
 
 /// Where two bodies touch, or would.
@@ -131,8 +133,9 @@ pub fn contact_force(
     let (elapsed, dashpot) = since_touch(geometry, middle, dt, memory.is_none());
     let mut springs = match memory {
         Some(before) => carried_along(before, &n, middle.twist * dt),
-        None => ContactMemory { normal: n, spring: Vec3::zeros(), rolling: Vec3::zeros() },
+        None => ContactMemory { normal: n, spring: Vec3::zeros(), rolling: Vec3::zeros(), overlap },
     };
+    springs.overlap = overlap;
 
     // F_n = max(0, k δ + γ u·n)
     let normal_force =
@@ -188,7 +191,12 @@ fn carried_along(before: &ContactMemory, n: &Vec3, twist: f64) -> ContactMemory 
         let turned = spring - (m + n) * (spring.dot(n) / (1.0 + m.dot(n)));
         in_plane(&(turned * cosine + n.cross(&turned) * sine), n)
     };
-    ContactMemory { normal: *n, spring: turn(&before.spring), rolling: turn(&before.rolling) }
+    ContactMemory {
+        normal: *n,
+        spring: turn(&before.spring),
+        rolling: turn(&before.rolling),
+        overlap: before.overlap,
+    }
 }
 
 /// Spring and dashpot together, at most `limit`; beyond it the spring slips until both are at it.
@@ -204,6 +212,6 @@ fn limited(spring: &mut Vec3, stiffness: f64, dashpot: &Vec3, limit: f64) -> Vec
 }
 
 /// The part of `vector` perpendicular to the unit vector `n`.
-fn in_plane(vector: &Vec3, n: &Vec3) -> Vec3 {
+pub(super) fn in_plane(vector: &Vec3, n: &Vec3) -> Vec3 {
     vector - n * vector.dot(n)
 }

@@ -1,8 +1,7 @@
 //! All that two bodies exert on each other: contact, and lubrication if there is any.
 
-use crate::grains::contact::{ContactMemory, Geometry, Motion, PairForce, Relative, contact_force};
+use crate::grains::contact::{ContactMemory, Geometry, Motion, PairForce, Relative};
 use crate::grains::grain::Grain;
-use crate::grains::law::ContactLaw;
 use crate::grains::motion::Course;
 use crate::grains::plane::Plane;
 use crate::grains::setup::GrainSetup;
@@ -28,7 +27,8 @@ pub fn between_grains(
     let geometry = Geometry::of_spheres(&offset, radii);
     let middle = Relative::new(&geometry, [&course_one.middle, &course_two.middle]);
     let end = Relative::new(&geometry, [&course_one.end, &course_two.end]);
-    let contact = contact_force(&setup.law, &geometry, [&middle, &end], dt, memory);
+    let masses = moving_masses([one, two]);
+    let contact = setup.law.force(masses, &geometry, [&middle, &end], dt, memory);
     let drag = setup.lubrication.map(|law| law.between_spheres(-geometry.overlap, radii));
     with_lubrication(contact, drag, &geometry.normal, &end)
 }
@@ -51,10 +51,20 @@ pub fn with_plane(
     let motion = Motion { velocity: plane.velocity, angular_velocity: Vec3::zeros() };
     let middle = Relative::new(&geometry, [&course.middle, &motion]);
     let end = Relative::new(&geometry, [&course.end, &motion]);
-    let law: &ContactLaw = &plane.law;
-    let contact = contact_force(law, &geometry, [&middle, &end], dt, memory);
+    let masses = [grain.mass, f64::INFINITY];
+    let contact = plane.law.force(masses, &geometry, [&middle, &end], dt, memory);
     let drag = setup.lubrication.map(|law| law.at_plane(-geometry.overlap, grain.radius));
     with_lubrication(contact, drag, &geometry.normal, &end)
+}
+
+/// The masses that a contact moves: a grain that is held gives way like an infinite one. (Between two of
+/// those nothing moves, and their own masses give a finite force to look at.)
+pub fn moving_masses([one, two]: [&Grain; 2]) -> [f64; 2] {
+    match (one.held, two.held) {
+        (true, false) => [f64::INFINITY, two.mass],
+        (false, true) => [one.mass, f64::INFINITY],
+        _ => [one.mass, two.mass],
+    }
 }
 
 /// A contact's force with lubrication added: `drag` (force · time/length) times the speed of approach,

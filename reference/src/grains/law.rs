@@ -1,4 +1,4 @@
-//! The contact law: Voigt normal spring and dashpot, tangential spring and dashpot under Coulomb's
+//! The linear contact law: Voigt normal spring and dashpot, tangential spring and dashpot under Coulomb's
 //! limit, and an optional rolling resistance.
 //!
 //! Two grains of reduced mass `m = m₁ m₂/(m₁ + m₂)` that meet at speed `v₀` overlap by `δ(t)`:
@@ -213,7 +213,7 @@ pub fn damping_ratio(e: f64) -> f64 {
 }
 
 /// The damping ratio of a restitution that a user gives.
-fn checked_damping_ratio(restitution: f64) -> Result<f64, LawError> {
+pub(super) fn checked_damping_ratio(restitution: f64) -> Result<f64, LawError> {
     if (0.01..=1.0).contains(&restitution) {
         return Ok(damping_ratio(restitution));
     }
@@ -222,7 +222,7 @@ fn checked_damping_ratio(restitution: f64) -> Result<f64, LawError> {
 }
 
 /// `s(ζ) = acos ζ/√(1 - ζ²)`, continued beyond `ζ = 1`, where it is 1.
-fn phase_per_sine(zeta: f64) -> f64 {
+pub(super) fn phase_per_sine(zeta: f64) -> f64 {
     let below = 1.0 - zeta;
     if below.abs() < 1e-4 {
         // s = 1 + x/3 + 2 x²/15 + ... in x = 1 - ζ; what is left out is below 1e-13
@@ -235,14 +235,14 @@ fn phase_per_sine(zeta: f64) -> f64 {
 }
 
 /// Errors unless `value` is positive and finite.
-fn positive(key: &'static str, value: f64) -> Result<(), LawError> {
+pub(super) fn positive(key: &'static str, value: f64) -> Result<(), LawError> {
     let allowed = "must be positive and finite";
     let fits = value > 0.0 && value.is_finite();
     if fits { Ok(()) } else { Err(LawError::BadValue { key, value, allowed }) }
 }
 
 /// Errors if `value` is negative or not finite.
-fn not_negative(key: &'static str, value: f64) -> Result<(), LawError> {
+pub(super) fn not_negative(key: &'static str, value: f64) -> Result<(), LawError> {
     let allowed = "must be finite and not negative; use 0 for none";
     let fits = value >= 0.0 && value.is_finite();
     if fits { Ok(()) } else { Err(LawError::BadValue { key, value, allowed }) }

@@ -2,7 +2,9 @@
 //!
 //! | equation | what it says | file |
 //! |---|---|---|
-//! | `F = k δ + γ dδ/dt`, Coulomb | contact laws, and their conversion from duration and restitution | [`law`] |
+//! | `F = k δ + γ dδ/dt`, Coulomb | linear contact law, and its conversion from duration and restitution | [`law`] |
+//! | `F = (4/3) E* √(R* δ) δ`, Mindlin | contact law of elastic spheres | [`hertz`] |
+//! | | the two laws, and what is asked of both | [`laws`] |
 //! | | the force of one contact, its springs carried along as it turns | [`contact`] |
 //! | `6π μ a X(gap) U` | lubrication correction | [`lubrication`] |
 //! | | walls and other planes | [`plane`] |
@@ -20,9 +22,11 @@
 
 pub mod contact;
 pub mod grain;
+pub mod hertz;
 pub mod hold;
 pub mod interaction;
 pub mod law;
+pub mod laws;
 pub mod lubrication;
 pub mod motion;
 pub mod neighbours;

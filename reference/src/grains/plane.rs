@@ -1,6 +1,7 @@
 //! Planes: floors, walls, belts and pistons.
 
-use crate::grains::law::{ContactLaw, LawError};
+use crate::grains::law::LawError;
+use crate::grains::laws::Law;
 use crate::lattice::Vec3;
 use thiserror::Error;
 
@@ -14,7 +15,7 @@ pub struct Plane {
     /// Velocity, length/time: in the plane it is a belt's, along the normal a piston's.
     pub velocity: Vec3,
     /// How grains touch it.
-    pub law: ContactLaw,
+    pub law: Law,
 }
 
 /// A plane that cannot be used.
@@ -64,8 +65,9 @@ pub enum PlaneError {
 impl Plane {
     /// A plane at rest through `point`, with the grains on the side to which `direction` (of any
     /// length) points.
-    pub fn fixed(point: Vec3, direction: Vec3, law: ContactLaw) -> Self {
-        Plane { point, normal: direction.normalize(), velocity: Vec3::zeros(), law }
+    pub fn fixed(point: Vec3, direction: Vec3, law: impl Into<Law>) -> Self {
+        let (normal, law) = (direction.normalize(), law.into());
+        Plane { point, normal, velocity: Vec3::zeros(), law }
     }
 
     /// The same, moving.
@@ -76,7 +78,8 @@ impl Plane {
 
     /// The walls at rest of a domain from `low` to `high`, two for each axis of `axes` (0, 1 or 2), in
     /// the order of the axes, the lower wall first.
-    pub fn box_walls(low: Vec3, high: Vec3, axes: &[usize], law: ContactLaw) -> Vec<Self> {
+    pub fn box_walls(low: Vec3, high: Vec3, axes: &[usize], law: impl Into<Law>) -> Vec<Self> {
+        let law: Law = law.into();
         let wall = |axis: usize| {
             let inward = Vec3::from_fn(|i, _| if i == axis { 1.0 } else { 0.0 });
             [Plane::fixed(low, inward, law), Plane::fixed(high, -inward, law)]

@@ -1,7 +1,8 @@
 //! What a set of grains is set up with, and the checks that it makes sense.
 
 use crate::grains::grain::Grain;
-use crate::grains::law::{ContactLaw, LawError};
+use crate::grains::law::LawError;
+use crate::grains::laws::Law;
 use crate::grains::lubrication::{Lubrication, LubricationError};
 use crate::grains::motion::{SubstepError, Substeps};
 use crate::grains::plane::{Plane, PlaneError};
@@ -45,7 +46,7 @@ impl PeriodicBox {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrainSetup {
     /// How grains touch each other. (Each plane has a law of its own.)
-    pub law: ContactLaw,
+    pub law: Law,
     /// Gravity, length/time²: acts on each grain with its mass. Buoyancy is for the caller to take
     /// off, here or in the loads.
     pub gravity: Vec3,
@@ -143,9 +144,9 @@ pub enum GrainError {
 
 impl GrainSetup {
     /// Grains that touch by `law`; no gravity, no periodic axes, no lubrication.
-    pub fn new(law: ContactLaw) -> Self {
+    pub fn new(law: impl Into<Law>) -> Self {
         GrainSetup {
-            law,
+            law: law.into(),
             gravity: Vec3::zeros(),
             sides: PeriodicBox::default(),
             lubrication: None,
@@ -198,18 +199,12 @@ impl GrainSetup {
         rooms.fold(0.4 * smallest, f64::min)
     }
 
-    /// The shortest time scale that a sub-step must resolve: of contacts between the lightest grains
-    /// that are free to move or between these and planes, and of lubrication.
+    /// The shortest time scale that a sub-step must resolve: of contacts between free grains or between
+    /// these and planes, and of lubrication.
     pub fn shortest_time(&self, grains: &[Grain], planes: &[Plane]) -> f64 {
         let free = || grains.iter().filter(|grain| !grain.held);
-        let mut masses: Vec<f64> = free().map(|grain| grain.mass).collect();
-        masses.sort_by(f64::total_cmp);
-        let Some(&lightest) = masses.first() else { return f64::INFINITY };
-        // m₁ m₂/(m₁ + m₂), or m₁ against a grain that is held
-        let second = masses.get(1).copied().filter(|_| masses.len() == grains.len());
-        let reduced = second.map_or(lightest, |second| lightest * second / (lightest + second));
-        let among_grains = self.law.shortest_time(reduced);
-        let on_planes = planes.iter().map(|plane| plane.law.shortest_time(lightest));
+        let among_grains = self.law.shortest_time(grains);
+        let on_planes = planes.iter().map(|plane| plane.law.shortest_time_on_plane(grains));
         // A dashpot of strength c stops a mass in m/c; a sub-step of a fifth of that is safe.
         let calming = |grain: &Grain| {
             self.lubrication

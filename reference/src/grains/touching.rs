@@ -3,8 +3,9 @@
 //! Forces are worked out anew from places, velocities and springs, and nothing changes: what is seen after a checkpoint has
 //! been read is what was seen when it was written. Lubrication is left out: it is the fluid's.
 
-use crate::grains::contact::{Geometry, Motion, Relative, contact_force};
+use crate::grains::contact::{Geometry, Motion, Relative};
 use crate::grains::grain::Grain;
+use crate::grains::interaction::moving_masses;
 use crate::grains::system::GrainSystem;
 use crate::lattice::Vec3;
 
@@ -41,9 +42,9 @@ pub fn touching(system: &GrainSystem) -> Vec<Touching> {
         let branch = setup.sides.offset(&first.position, &second.position, pair.candidate.image);
         let geometry = Geometry::of_spheres(&branch, [first.radius, second.radius]);
         let relative = Relative::new(&geometry, [&motion(first), &motion(second)]);
-        let mut memory = Some(pair.memory?);
+        let (masses, mut memory) = (moving_masses([first, second]), Some(pair.memory?));
         let now = [&relative, &relative];
-        let force = contact_force(&setup.law, &geometry, now, 0.0, &mut memory)?.force;
+        let force = setup.law.force(masses, &geometry, now, 0.0, &mut memory)?.force;
         let other = Touched::Grain(two);
         Some(Touching { grain: one, other, branch, normal: geometry.normal, force })
     });
@@ -53,9 +54,9 @@ pub fn touching(system: &GrainSystem) -> Vec<Touching> {
         let geometry = Geometry::on_plane(height, &plane.normal, grain.radius);
         let of_plane = Motion { velocity: plane.velocity, angular_velocity: Vec3::zeros() };
         let relative = Relative::new(&geometry, [&motion(grain), &of_plane]);
-        let mut memory = Some(contact.memory);
+        let (masses, mut memory) = ([grain.mass, f64::INFINITY], Some(contact.memory));
         let now = [&relative, &relative];
-        let force = contact_force(&plane.law, &geometry, now, 0.0, &mut memory)?.force;
+        let force = plane.law.force(masses, &geometry, now, 0.0, &mut memory)?.force;
         let (branch, normal) = (geometry.normal * height, geometry.normal);
         let other = Touched::Plane(contact.plane);
         Some(Touching { grain: contact.grain, other, branch, normal, force })

@@ -8,6 +8,7 @@ use psmrt_reference::grains::grain::{Grain, sphere_volume};
 use psmrt_reference::grains::motion::Substeps;
 use psmrt_reference::lattice::{Vec3, viscosity};
 
+use super::contacts;
 use super::number::{Number, number};
 use crate::scene::check::hardness::{Burden, Overlaps};
 use crate::scene::{FreePart, Scene};
@@ -47,38 +48,27 @@ pub(super) fn burden(scene: &Scene, part: &FreePart) -> Burden {
 /// The derived numbers.
 pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
     let Some(part) = &scene.free else { return Vec::new() };
-    let (units, law) = (&scene.units, &part.setup.law);
+    let units = &scene.units;
     let ratio = |grain: &Grain| grain.mass / sphere_volume(grain.radius);
     let (low, high) = free(part)
         .map(ratio)
         .fold((f64::INFINITY, 0.0_f64), |(low, high), ratio| (low.min(ratio), high.max(ratio)));
     let note = if high > low { format!("the heaviest has {high:.3}") } else { String::new() };
-    let pair = 0.5 * free(part).map(|grain| grain.mass).fold(f64::INFINITY, f64::min);
-    let duration = law.duration(pair);
     let count = free(part).count();
     let substeps = part.substeps().unwrap_or(0);
     let chosen = match part.setup.substeps {
         Substeps::Automatic => "25 in the shortest contact",
         Substeps::Fixed(_) => "as given",
     };
-    let restitution =
-        format!("coefficient of restitution {:.3}, two of the lightest", law.restitution(pair));
     let mut numbers = vec![
         number("free grains", count as f64, "", format!("of {}", part.grains.len())),
         number("density ratio", low, "", note),
-        number(
-            "contact duration",
-            duration * units.si_dt,
-            "s",
-            format!("{duration:.2} time steps, of two of the lightest"),
-        ),
-        number("stiffness", law.stiffness * units.si_stiffness(), "N/m", "normal spring"),
-        number("damping", law.damping * units.si_damping(), "N s/m", restitution),
-        number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")),
     ];
+    numbers.extend(contacts::numbers(scene, part, burden(scene, part).speed()));
+    numbers.push(number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")));
     if let Some((settle, _)) = stokes_velocity(scene) {
         let Overlaps { in_bed, one_on_one, in_impact } =
-            burden(scene, part).overlaps(law.stiffness);
+            burden(scene, part).overlaps(&part.setup.law);
         let note = format!(
             "{settle:.2e} cells per time step; of the fastest grain, alone and without inertia"
         );
@@ -96,7 +86,7 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
 /// The models that are on, with the keys that say so.
 pub(super) fn models(scene: &Scene) -> Vec<String> {
     let Some(part) = &scene.free else { return Vec::new() };
-    let (law, settings) = (&part.setup.law, &part.settings);
+    let settings = &part.settings;
     let inertia = match settings.internal_fluid {
         InternalFluid::Lagged => "added back with a lag of one step",
         InternalFluid::Kept => "retained",
@@ -110,19 +100,7 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
     let mut models = vec![format!(
         "free grains: DEM (motion = \"free\"); internal mass {inertia}{averaged}{solved}"
     )];
-    let friction = match law.friction {
-        Some(friction) => format!(
-            "friction {}, tangential stiffness {:.4} of the normal one",
-            friction.coefficient,
-            friction.stiffness / law.stiffness
-        ),
-        None => "smooth".to_owned(),
-    };
-    let rolling = match law.rolling {
-        Some(rolling) => format!(", rolling resistance {}", rolling.coefficient),
-        None => String::new(),
-    };
-    models.push(format!("contact: spring and dashpot, {friction}{rolling} (contact; keys that are absent take defaults)"));
+    models.push(contacts::model(scene, part));
     if let Some(lubrication) = part.setup.lubrication {
         models.push(format!(
             "lubrication: between gaps of {:.3e} and {:.3e} m{} (lubrication)",

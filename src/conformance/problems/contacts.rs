@@ -89,7 +89,8 @@ fn pairs(
             let vector = random.vector(0.02);
             vector - direction * vector.dot(&direction)
         };
-        let springs = ContactMemory { normal: direction, spring: across(), rolling: across() };
+        let (spring, rolling) = (across(), across());
+        let springs = ContactMemory { normal: direction, spring, rolling, overlap };
         let motions = [first, if plane { still } else { second }];
         pairs.push(TouchingPair { law, radii, offset, motions, springs });
     }

@@ -5,10 +5,11 @@
 //! are. Inlets and outlets act as sieves, so that no grain leaves the domain.
 
 use psmrt_reference::grains::law::{ContactLaw, Friction, LawError, Rolling};
+use psmrt_reference::grains::laws::Law;
 use psmrt_reference::grains::motion::Substeps;
 
-use super::Trouble;
 use super::numbers::{absent, coefficient, positive};
+use super::{Trouble, hertz};
 use crate::scene::format_free::ContactSection;
 use crate::units::Units;
 
@@ -24,7 +25,7 @@ pub(super) const MOST_SUBSTEPS: u32 = 2500;
 pub const DEFAULT_DURATION: f64 = 10.0;
 
 /// Longest contact duration that is accepted, time steps: longer ones hold nothing.
-const LONGEST_DURATION: f64 = 1e6;
+pub(super) const LONGEST_DURATION: f64 = 1e6;
 
 /// Tangential over normal stiffness that is accepted: far beyond any material on both sides (2/3 to 1 for
 /// elastic spheres, by Mindlin), and short of what round-off makes of it.
@@ -44,17 +45,17 @@ pub const DEFAULT_FRICTION: f64 = 0.5;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Laws {
     /// Between grains.
-    pub grains: ContactLaw,
+    pub grains: Law,
     /// Between a grain and a face: the same stiffness, and where a restitution is wanted the damping
     /// that gives it on a wall.
-    pub walls: ContactLaw,
+    pub walls: Law,
 }
 
 /// Beyond all stiffness and damping that sub-steps could resolve, and far from overflow.
 const HUGE: f64 = 1e200;
 
 /// A value that does not overflow in what is made of it: `effort.rs` refuses it then.
-fn capped(value: f64) -> f64 {
+pub(super) fn capped(value: f64) -> f64 {
     if value > HUGE { HUGE } else { value }
 }
 
@@ -63,6 +64,8 @@ fn capped(value: f64) -> f64 {
 pub(super) struct Bodies {
     /// Mass of the lightest free grain.
     pub lightest: f64,
+    /// Its radius.
+    pub radius_of_lightest: f64,
     /// Stiffness that weight and impacts ask for; 0 without gravity.
     pub weight_asks: f64,
 }
@@ -70,6 +73,7 @@ pub(super) struct Bodies {
 /// Errors unless the keys of the section go together.
 pub(super) fn consistent(section: &ContactSection) -> Result<(), Trouble> {
     let key = |name: &str| format!("contact.{name}");
+    hertz::consistent(section)?;
     if section.stiffness.is_none() {
         absent(&key("damping"), section.damping.as_ref(), "`stiffness`")?;
     }
@@ -100,6 +104,10 @@ pub(super) fn laws(
     bodies: &Bodies,
     units: &Units,
 ) -> Result<Laws, Trouble> {
+    if let Some(si_modulus) = section.youngs_modulus {
+        let law = hertz::law(section, si_modulus, bodies, units)?.into();
+        return Ok(Laws { grains: law, walls: law });
+    }
     let key = |name: &str| format!("contact.{name}");
     // Two of the lightest have the reduced mass m/2, one against a wall has m.
     let pair = 0.5 * bodies.lightest;
@@ -146,7 +154,7 @@ pub(super) fn laws(
     let both = |mass: f64| law(mass).and_then(|law| with_friction(law, section));
     let grains = both(pair).map_err(|error| trouble(&error))?;
     let walls = both(bodies.lightest).map_err(|error| trouble(&error))?;
-    Ok(Laws { grains, walls })
+    Ok(Laws { grains: grains.into(), walls: walls.into() })
 }
 
 /// The law with friction and rolling resistance.
@@ -168,7 +176,14 @@ fn with_friction(law: ContactLaw, section: &ContactSection) -> Result<ContactLaw
 
 /// The law of a mirror plane: the contact of a grain with its own mirror image (exactly, but for a
 /// rolling spring's turn about the normal, which a plane, having no angular velocity, takes to be half as fast).
-pub(super) fn mirror(law: &ContactLaw) -> ContactLaw {
+pub(super) fn mirror(law: &Law) -> Law {
+    match law {
+        Law::Linear(law) => linear_mirror(law).into(),
+        Law::Hertz(law) => hertz::mirror(law).into(),
+    }
+}
+
+fn linear_mirror(law: &ContactLaw) -> ContactLaw {
     // The overlap with the image is twice that with the plane, and so is the speed of approach; the
     // two surfaces never slip. A couple per radian k_r (R/2)² (2 θ) is (k_r/2) R² θ; its limit
     // μ_r (R/2) F_n is (μ_r/2) R F_n.
@@ -209,6 +224,8 @@ fn one_of(first: bool, second: bool, name: &str, other: &str) -> Result<(), Trou
 pub(super) fn trouble(error: &LawError) -> Trouble {
     let LawError::BadValue { key, allowed, .. } = error;
     let (name, remedy) = match *key {
+        "Young's modulus" => ("youngs_modulus", "give a modulus in Pa above 0"),
+        "Poisson's ratio" => ("poisson_ratio", "0.3 is usual"),
         "restitution" => ("restitution", "0.5 is usual for grains in water"),
         "contact duration" => ("duration", "give a time in s, some time steps long"),
         "stiffness" => ("stiffness", "give a stiffness in N/m above 0, or `duration`"),

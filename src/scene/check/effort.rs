@@ -8,14 +8,18 @@ use super::maker::Maker;
 use crate::scene::format_free::{ContactSection, LubricationSection};
 
 /// The keys on which the number depends: where they stand, and their unit.
-const KEYS: [(&str, &str); 6] = [
+const KEYS: [(&str, &str); 7] = [
     ("contact.stiffness", " N/m"),
     ("contact.damping", " N s/m"),
     ("contact.duration", " s"),
     ("contact.restitution", ""),
     ("contact.tangential_ratio", ""),
     ("lubrication.smallest_gap", " m"),
+    ("contact.youngs_modulus", " Pa"),
 ];
+
+/// Place of `youngs_modulus` in [`KEYS`].
+const MODULUS: usize = 6;
 
 /// The two sections, with one key changed at a time.
 #[derive(Clone)]
@@ -27,8 +31,15 @@ struct Keys {
 impl Keys {
     /// The key number `key` of [`KEYS`], if the section that it belongs to is there.
     fn key(&mut self, key: usize) -> Option<&mut Option<f64>> {
-        let ContactSection { stiffness, damping, duration, restitution, tangential_ratio, .. } =
-            &mut self.contact;
+        let ContactSection {
+            stiffness,
+            damping,
+            duration,
+            restitution,
+            tangential_ratio,
+            youngs_modulus,
+            ..
+        } = &mut self.contact;
         let gap = self.lubrication.as_mut().map(|section| &mut section.smallest_gap);
         let all = [
             Some(stiffness),
@@ -37,6 +48,7 @@ impl Keys {
             Some(restitution),
             Some(tangential_ratio),
             gap,
+            Some(youngs_modulus),
         ];
         all.into_iter().nth(key).flatten()
     }
@@ -48,6 +60,19 @@ impl Keys {
             *place = value;
         }
         changed
+    }
+
+    /// The same with a key that is not to blame: absent, but for a modulus, without which contacts would be others.
+    fn relieved(&self, key: usize, maker: &Maker) -> Self {
+        self.with(key, if key == MODULUS { self.soft_modulus(maker) } else { None })
+    }
+
+    /// A modulus with which contacts are twice as long as they must be, Pa: times go as its root.
+    fn soft_modulus(&self, maker: &Maker) -> Option<f64> {
+        let (setup, _) = maker.make(&self.contact, self.lubrication.as_ref()).ok()?;
+        let si_modulus = setup.law.hertz()?.material.youngs_modulus * maker.units.si_pressure();
+        let affordable = SUBSTEPS_PER_CONTACT / f64::from(MOST_SUBSTEPS);
+        Some(si_modulus * (0.5 * self.shortest_time(maker) / affordable).powi(2))
     }
 
     /// The shortest time that sub-steps must resolve, time steps; for ever if a value cannot be used.
@@ -63,14 +88,17 @@ impl Keys {
 
     /// The value of a key that the section leaves to us, in SI units.
     fn default_of(&self, key: usize, maker: &Maker) -> Option<f64> {
+        if key == MODULUS {
+            return self.soft_modulus(maker);
+        }
         let absent = self.with(key, None);
         let (setup, _) = maker.make(&absent.contact, absent.lubrication.as_ref()).ok()?;
-        let (law, units) = (setup.law, maker.units);
+        let units = maker.units;
         let pair = 0.5 * maker.bodies.lightest;
         Some(match key {
-            0 => law.stiffness * units.si_stiffness(),
-            1 => law.damping * units.si_damping(),
-            2 => law.duration(pair) * units.si_dt,
+            0 => setup.law.linear()?.stiffness * units.si_stiffness(),
+            1 => setup.law.linear()?.damping * units.si_damping(),
+            2 => setup.law.linear()?.duration(pair) * units.si_dt,
             3 => super::contact::DEFAULT_RESTITUTION,
             4 => 2.0 / 7.0,
             _ => setup.lubrication?.smallest_gap * units.si_dx,
@@ -108,10 +136,10 @@ pub(super) fn check(
 /// Blames the key without which there would be fewest.
 fn too_many(keys: &Keys, maker: &Maker) -> Trouble {
     let given = |key: usize| keys.clone().key(key).and_then(|value| *value);
-    let without = |key: &usize| keys.with(*key, None).shortest_time(maker);
+    let without = |key: &usize| keys.relieved(*key, maker).shortest_time(maker);
     let blamed = (0..KEYS.len())
         .filter(|&key| given(key).is_some())
-        .filter(|key| keys.with(*key, None).is_affordable(maker))
+        .filter(|key| keys.relieved(*key, maker).is_affordable(maker))
         .max_by(|one, two| without(one).total_cmp(&without(two)));
     let found = blamed.and_then(|key| Some((key, given(key)?, keys.default_of(key, maker)?)));
     let Some((key, value, good)) = found else { return heavy(keys, maker) };
@@ -132,7 +160,13 @@ fn too_many(keys: &Keys, maker: &Maker) -> Trouble {
         "a time step would need more than {MOST_SUBSTEPS} sub-steps; it must be {range} (with the other keys as \
          they are)"
     );
-    Trouble::new(name, problem, "leave it out to have it chosen, or keep to that range")
+    let remedy = match key {
+        MODULUS => {
+            "use a softer modulus: little changes as long as overlaps stay below 1 % of a diameter; or a shorter time step"
+        }
+        _ => "leave it out to have it chosen, or keep to that range",
+    };
+    Trouble::new(name, problem, remedy)
 }
 
 /// No single key is to blame: weight or impacts ask for it.
@@ -140,7 +174,20 @@ fn heavy(keys: &Keys, maker: &Maker) -> Trouble {
     let (short, units) = (keys.shortest_time(maker) / SUBSTEPS_PER_CONTACT, maker.units);
     let factor = short * f64::from(MOST_SUBSTEPS);
     let law = maker.make(&keys.contact, keys.lubrication.as_ref()).map(|(setup, _)| setup.law);
-    let si_stiffness = law.map_or(0.0, |law| law.stiffness) * units.si_stiffness();
+    if law.as_ref().is_ok_and(|law| law.hertz().is_some()) {
+        let problem = format!(
+            "a time step would take {:.0} sub-steps; {MOST_SUBSTEPS} is the limit",
+            1.0 / short
+        );
+        let si_dt = 0.98 * factor * units.si_dt;
+        return Trouble::new(
+            "contact",
+            problem,
+            format!("shorten the time step to {si_dt:.2e} s or less"),
+        );
+    }
+    let stiffness = law.ok().and_then(|law| law.linear().map(|law| law.stiffness));
+    let si_stiffness = stiffness.unwrap_or(0.0) * units.si_stiffness();
     let problem = format!(
         "the grains need contacts so stiff ({si_stiffness:.2e} N/m, from weight and size of the heaviest and the \
          smallest) that a time step takes {:.0} sub-steps; {MOST_SUBSTEPS} is the limit",

@@ -85,7 +85,9 @@ pub(super) fn free_part(
     let grains: Vec<Grain> = list.grains.iter().map(Listed::to_grain).collect();
     let g = gravity_in_time.map_or_else(Vec3::zeros, |signal| signal.largest(Vec3::norm));
     let weight_asks = Burden::new(&grains, &g, domain, viscosity(tau)).stiffness();
-    let bodies = Bodies { lightest, weight_asks };
+    let of_lightest = list.free().filter(|listed| listed.mass() == lightest);
+    let radius_of_lightest = of_lightest.map(|listed| listed.radius).fold(f64::INFINITY, f64::min);
+    let bodies = Bodies { lightest, radius_of_lightest, weight_asks };
     let maker = Maker { grains: &grains, bodies, domain, mirrored, tau, units };
     let (setup, planes) = maker.make(&contact, file.lubrication.as_ref())?;
     effort::check(&maker, &contact, file.lubrication.as_ref())?;

@@ -1,6 +1,6 @@
 //! How hard contacts must be: what weight and impacts ask of the stiffness of the normal spring.
 //!
-//! All contacts of a scene have one linear spring, of stiffness `k`. What presses on it, in SI words:
+//! All linear contacts of a scene have one spring, of stiffness `k`. What presses on it, in SI words:
 //!
 //! *A bed at rest.* The free grains weigh `W = Σ (m_s - m_f) g`, less buoyancy. If they come to rest on the
 //! area `A` of the domain across gravity, they press on the floor with `p = W/A`. A grain of diameter `d`
@@ -29,12 +29,17 @@
 //! a fall without drag through the domain, `√(2 (1 - m_f/m_s) g h)`. The heaviest grain that hits
 //! the smallest overlaps it by less than 5 % of its diameter ([`IN_IMPACT`]).
 //!
+//! *Hertz's contact* of modulus `E*` gives way to the same forces and energies by `δ = (F/K)^(2/3)` and
+//! `δ = (5 m v²/(4 K))^(2/5)` with `K = (4/3) E* √R*`: at the bottom of a bed `R*` is half the radius of the largest, and
+//! elsewhere that of the largest on the smallest.
+//!
 //! None of this knows the time step: the sub-steps pay for it.
 
 use std::f64::consts::PI;
 
 use psmrt_reference::domain::Domain;
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
+use psmrt_reference::grains::laws::Law;
 use psmrt_reference::lattice::Vec3;
 
 /// Mean overlap at the bottom of a bed at rest, in diameters, that default contacts keep to.
@@ -55,6 +60,12 @@ pub(crate) struct Burden {
     one_on_one: f64,
     /// Largest `m v²` over the square of the smallest diameter.
     in_impact: f64,
+    /// Smallest diameter of all grains.
+    smallest: f64,
+    /// Largest diameter of the free ones.
+    largest: f64,
+    /// Largest speed of an impact.
+    speed: f64,
 }
 
 /// Overlaps in diameters of the smaller grain.
@@ -89,25 +100,63 @@ impl Burden {
             .map(|axis| total * (g[axis].abs() / g.norm()) * cells[axis] / volume)
             .fold(0.0, f64::max);
         let height = fall(domain, g);
-        let energy = |grain: &Grain| {
-            let speed = settling_speed(weight(grain), grain.radius, nu);
+        let speed = |grain: &Grain| {
+            let steady = settling_speed(weight(grain), grain.radius, nu);
             // v = √(2 (1 - m_f/m_s) g h)
             let dropped = (2.0 * weight(grain) / grain.mass * height).sqrt();
-            grain.mass * speed.min(dropped).powi(2)
+            steady.min(dropped)
         };
+        let energy = |grain: &Grain| grain.mass * speed(grain).powi(2);
         Burden {
             in_bed: pressure * largest,
             one_on_one: free().map(weight).fold(0.0, f64::max) / smallest,
             in_impact: free().map(energy).fold(0.0, f64::max) / (smallest * smallest),
+            smallest,
+            largest,
+            speed: free().map(speed).fold(0.0, f64::max),
         }
     }
 
-    /// The overlaps that contacts of this stiffness allow.
-    pub fn overlaps(&self, stiffness: f64) -> Overlaps {
-        Overlaps {
-            in_bed: self.in_bed / stiffness,
-            one_on_one: self.one_on_one / stiffness,
-            in_impact: (self.in_impact / stiffness).sqrt(),
+    /// Largest speed at which a grain falls on something; 0 if nothing weighs.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// The overlaps that contacts of this law allow.
+    pub fn overlaps(&self, law: &Law) -> Overlaps {
+        match law {
+            Law::Linear(law) => Overlaps {
+                in_bed: self.in_bed / law.stiffness,
+                one_on_one: self.one_on_one / law.stiffness,
+                in_impact: (self.in_impact / law.stiffness).sqrt(),
+            },
+            Law::Hertz(_) if self.smallest == 0.0 => {
+                Overlaps { in_bed: 0.0, one_on_one: 0.0, in_impact: 0.0 }
+            }
+            Law::Hertz(_) => {
+                let (small, large) = (self.smallest, self.largest);
+                let radius = 0.5 * small * large / (small + large);
+                let (bed, weight) = (self.in_bed * large, self.one_on_one * small);
+                // A mass of 1 that has the energy of the impact.
+                let speed = self.in_impact.sqrt() * small;
+                Overlaps {
+                    in_bed: law.overlap_at_rest(bed, 0.25 * large) / large,
+                    one_on_one: law.overlap_at_rest(weight, radius) / small,
+                    in_impact: law.overlap_of_impact(speed, radius, 1.0) / small,
+                }
+            }
+        }
+    }
+
+    /// How many times harder contacts of this law would keep all of them to their limits: stiffness or modulus.
+    pub fn asks_of(&self, law: &Law) -> f64 {
+        match law {
+            Law::Linear(law) => self.stiffness() / law.stiffness,
+            Law::Hertz(_) => {
+                let Overlaps { in_bed, one_on_one, in_impact } = self.overlaps(law);
+                let at_rest = (in_bed / IN_BED).max(one_on_one / ONE_ON_ONE);
+                harder_at_rest(law, at_rest).max(harder_in_impact(law, in_impact / IN_IMPACT))
+            }
         }
     }
 
@@ -115,6 +164,22 @@ impl Burden {
     pub fn stiffness(&self) -> f64 {
         let at_rest = (self.in_bed / IN_BED).max(self.one_on_one / ONE_ON_ONE);
         at_rest.max(self.in_impact / (IN_IMPACT * IN_IMPACT))
+    }
+}
+
+/// How many times harder contacts must be for an overlap at rest that is `times` less deep.
+pub(crate) fn harder_at_rest(law: &Law, times: f64) -> f64 {
+    match law {
+        Law::Linear(_) => times,
+        Law::Hertz(_) => times.powf(1.5),
+    }
+}
+
+/// The same for an overlap of impact.
+pub(crate) fn harder_in_impact(law: &Law, times: f64) -> f64 {
+    match law {
+        Law::Linear(_) => times * times,
+        Law::Hertz(_) => times.powf(2.5),
     }
 }
 

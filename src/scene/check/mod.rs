@@ -19,6 +19,7 @@ mod grain_kinds;
 pub mod grain_list;
 pub mod grains;
 pub(crate) mod hardness;
+mod hertz;
 mod implicit;
 mod in_time;
 pub mod initial;

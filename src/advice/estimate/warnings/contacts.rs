@@ -1,6 +1,7 @@
 //! Warnings of contacts that are too soft or too expensive.
 
 use psmrt_reference::grains::hold::DEEPEST;
+use psmrt_reference::grains::laws::Law;
 
 use crate::advice::estimate::grains::burden;
 use crate::advice::estimate::warning::{Warning, warning};
@@ -20,8 +21,14 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
         let reason = format!(
             "the grains make {count} sub-steps in a time step: they may cost more than the fluid"
         );
-        let remedy =
-            "a shorter time step needs fewer of them, and so do longer contacts (contact.duration)";
+        let remedy = match part.setup.law {
+            Law::Linear(_) => {
+                "a shorter time step needs fewer of them, and so do longer contacts (contact.duration)"
+            }
+            Law::Hertz(_) => {
+                "a shorter time step needs fewer of them, and so does a softer modulus (contact.youngs_modulus)"
+            }
+        };
         warnings.push(warning(reason, remedy));
     }
     warnings
@@ -30,7 +37,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
 /// What happens to grains whose contacts are too soft, and what to do.
 fn softness(scene: &Scene, part: &FreePart) -> Option<Warning> {
     let burden = burden(scene, part);
-    let Overlaps { in_bed, one_on_one, in_impact } = burden.overlaps(part.setup.law.stiffness);
+    let Overlaps { in_bed, one_on_one, in_impact } = burden.overlaps(&part.setup.law);
     let at_rest = in_bed.max(one_on_one);
     // Of a diameter here, of a radius there.
     let lost = 0.5 * DEEPEST;
@@ -53,10 +60,18 @@ fn softness(scene: &Scene, part: &FreePart) -> Option<Warning> {
     } else {
         return None;
     };
-    let remedy = format!(
-        "leave `stiffness` and `duration` of [contact] out to have them chosen, or use contact.stiffness = {:.2e} \
-         (N/m) or more",
-        1.01 * burden.stiffness() * scene.units.si_stiffness()
-    );
+    let remedy = match part.setup.law {
+        Law::Linear(_) => format!(
+            "leave `stiffness` and `duration` of [contact] out to have them chosen, or use contact.stiffness = {:.2e} \
+             (N/m) or more",
+            1.01 * burden.stiffness() * scene.units.si_stiffness()
+        ),
+        Law::Hertz(law) => format!(
+            "use contact.youngs_modulus = {:.2e} (Pa) or more",
+            1.01 * burden.asks_of(&part.setup.law)
+                * law.material.youngs_modulus
+                * scene.units.si_pressure()
+        ),
+    };
     Some(warning(reason, remedy))
 }

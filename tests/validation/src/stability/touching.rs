@@ -105,7 +105,7 @@ fn contact(lab: &Lab, line: &Line, duration: f64) -> Result<Found, LabError> {
     let setup = with_grains(Lab::setup(line, [10, 10, 12], faces)?, line, &[grain]);
     let law =
         ContactLaw::from_duration_and_restitution(duration, 0.5, grain.mass)?.with_friction(0.5)?;
-    let floor = Plane { point: Vec3::zeros(), normal: Vec3::z(), velocity: Vec3::zeros(), law };
+    let floor = Plane::fixed(Vec3::zeros(), Vec3::z(), law);
     let sides = PeriodicBox { lengths: [Some(10.0), Some(10.0), None] };
     let grain_setup = GrainSetup { sides, ..GrainSetup::new(law) };
     // Alone in the shortest contact, which is that of two grains: half the mass.

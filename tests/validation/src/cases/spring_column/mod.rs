@@ -62,7 +62,10 @@ fn measure(bench: &mut Bench) -> Result<Table, CaseError> {
     // (m_s - m_f) g
     let weight = psmrt_reference::grains::grain::sphere_volume(one.radius);
     let si_weight = (one.mass - weight) * gravity * units.si_force();
-    let si_stiffness = part.setup.law.stiffness * units.si_stiffness();
+    let Some(law) = part.setup.law.linear() else {
+        return Err(CaseError::table("the scene needs linear contacts"));
+    };
+    let si_stiffness = law.stiffness * units.si_stiffness();
     let si_diameter = 2.0 * one.radius * units.si_dx;
     let (loads, layers) = (run.record("loads")?, run.record("layers")?);
     let mut table = Table::new(&[
