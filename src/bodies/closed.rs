@@ -6,6 +6,8 @@ use std::collections::HashMap;
 use psmrt_reference::lattice::Vec3;
 use thiserror::Error;
 
+use super::tree::Tree;
+
 /// Triangles that are no closed surface. Triangles are counted from 0, in the order in which they are given.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum MeshError {
@@ -46,6 +48,16 @@ pub enum MeshError {
         /// The volume.
         volume: f64,
     },
+    /// A triangle that is there twice.
+    #[error(
+        "triangles {first} and {second} (from 0) have the same corners: all or a part of the surface is there twice"
+    )]
+    Twice {
+        /// One.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
     /// Triangles that cross.
     #[error("triangles {first} and {second} (from 0) cross each other")]
     Crossing {
@@ -66,69 +78,73 @@ pub(super) fn check(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), Mes
         return Err(MeshError::TooMany { count });
     }
     edges(vertices, triangles)?;
+    copies(triangles)?;
     crossings(vertices, triangles)
+}
+
+/// The triangles that run along an edge, upward and downward by the numbers of its ends: how many, and the first two.
+#[derive(Default)]
+struct Sides {
+    counts: [u32; 2],
+    first: [[Option<usize>; 2]; 2],
 }
 
 /// Each edge must be run along as often one way as the other. (More than once each way: parts that touch there.)
 fn edges(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
-    // By its ends, the smaller number first: how often it is run along upward less downward, and the triangles that do.
-    let mut known: HashMap<[u32; 2], (i32, [Option<usize>; 2])> = HashMap::new();
+    let mut known: HashMap<[u32; 2], Sides> = HashMap::new();
     for (number, &[a, b, c]) in triangles.iter().enumerate() {
         if a == b || b == c || c == a {
             continue; // a line, which joins its neighbours: it has nothing inside
         }
         for [from, to] in [[a, b], [b, c], [c, a]] {
-            let (sign, ends) = if from < to { (1, [from, to]) } else { (-1, [to, from]) };
-            let (sum, by) = known.entry(ends).or_default();
-            *sum += sign;
-            let way = usize::from(sign < 0);
-            if by[way].is_some() && by[1 - way].is_none() && sum.abs() == 2 {
-                let first = by[way].unwrap_or(number);
-                return Err(MeshError::TurnedOver { first, second: number });
+            let (way, ends) = if from < to { (0, [from, to]) } else { (1, [to, from]) };
+            let sides = known.entry(ends).or_default();
+            if let Some(place) = sides.first[way].get_mut(sides.counts[way] as usize) {
+                *place = Some(number);
             }
-            by[way] = Some(number);
+            sides.counts[way] += 1;
         }
     }
-    let mut open: Vec<_> = known.into_iter().filter(|(_, (sum, _))| *sum != 0).collect();
-    open.sort_by_key(|(_, (_, by))| by.iter().flatten().min().copied());
-    let Some(([low, high], (sum, by))) = open.first() else { return Ok(()) };
-    let [low, high] = [low, high].map(|&n| <[f64; 3]>::from(vertices[n as usize]));
-    let (way, [from, to]) = if *sum > 0 { (0, [low, high]) } else { (1, [high, low]) };
-    Err(MeshError::Open { triangle: by[way].unwrap_or(0), from, to })
+    let bad = known.into_iter().filter(|(_, sides)| sides.counts[0] != sides.counts[1]);
+    // The first of the triangles, so that the message is the same each time.
+    let least = |sides: &Sides| sides.first.as_flattened().iter().flatten().min().copied();
+    let Some((ends, sides)) = bad.min_by_key(|(_, sides)| least(sides)) else { return Ok(()) };
+    let way = usize::from(sides.counts[1] > sides.counts[0]);
+    if let ([Some(first), Some(second)], 0) = (sides.first[way], sides.counts[1 - way]) {
+        return Err(MeshError::TurnedOver { first, second });
+    }
+    let [low, high] = ends.map(|n| <[f64; 3]>::from(vertices[n as usize]));
+    let [from, to] = if way == 0 { [low, high] } else { [high, low] };
+    Err(MeshError::Open { triangle: sides.first[way][0].unwrap_or(0), from, to })
 }
 
-/// Triangles without a common corner must not cross. Boxes of space, about as large as triangles are, tell which are near.
-fn crossings(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
-    let of_triangle = |triangle: &[u32; 3]| triangle.map(|n| vertices[n as usize]);
-    let corners: Vec<[Vec3; 3]> = triangles.iter().map(of_triangle).collect();
-    let first = [vertices[0]; 2];
-    let [low, high] = vertices.iter().fold(first, |[low, high], v| [low.inf(v), high.sup(v)]);
-    let edges = corners.iter().map(|[a, b, c]| (b - a).norm().max((c - a).norm()));
-    let mean = edges.sum::<f64>() / corners.len() as f64;
-    // No more boxes along an axis than a thousand.
-    let side = mean.max((high - low).amax() / 1000.0).max(f64::MIN_POSITIVE);
-    let place = |v: &Vec3| {
-        #[expect(clippy::cast_possible_truncation, reason = "at most a thousand")]
-        <[f64; 3]>::from((v - low) / side).map(|x| x.floor() as i32)
-    };
-    let mut boxes: HashMap<[i32; 3], Vec<usize>> = HashMap::new();
-    for (number, [a, b, c]) in corners.iter().enumerate() {
-        let [first, last] = [place(&a.inf(b).inf(c)), place(&a.sup(b).sup(c))];
-        for x in first[0]..=last[0] {
-            for y in first[1]..=last[1] {
-                for z in first[2]..=last[2] {
-                    let near = boxes.entry([x, y, z]).or_default();
-                    for &other in near.iter() {
-                        if cross(triangles, &corners, other, number) {
-                            return Err(MeshError::Crossing { first: other, second: number });
-                        }
-                    }
-                    near.push(number);
-                }
-            }
+/// No two triangles may be the same.
+fn copies(triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    let mut known = HashMap::new();
+    for (second, triangle) in triangles.iter().enumerate() {
+        let mut corners = *triangle;
+        corners.sort_unstable();
+        if corners[0] == corners[1] || corners[1] == corners[2] {
+            continue;
+        }
+        if let Some(first) = known.insert(corners, second) {
+            return Err(MeshError::Twice { first, second });
         }
     }
     Ok(())
+}
+
+/// Triangles without a common corner must not cross.
+fn crossings(vertices: &[Vec3], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    let of_triangle = |triangle: &[u32; 3]| triangle.map(|n| vertices[n as usize]);
+    let corners: Vec<[Vec3; 3]> = triangles.iter().map(of_triangle).collect();
+    let found = Tree::of(&corners).first_pair(|one, other| cross(triangles, &corners, one, other));
+    match found {
+        Some([one, other]) => {
+            Err(MeshError::Crossing { first: one.min(other), second: one.max(other) })
+        }
+        None => Ok(()),
+    }
 }
 
 /// Whether an edge of one goes through the inside of the other; not of neighbours, which share a corner.

@@ -1,5 +1,7 @@
 //! A closed surface of triangles.
 
+use std::sync::Arc;
+
 use psmrt_reference::lattice::Vec3;
 
 use super::closed::{self, MeshError};
@@ -8,14 +10,14 @@ use super::closed::{self, MeshError};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     vertices: Vec<Vec3>,
-    triangles: Vec<[u32; 3]>,
+    triangles: Arc<[[u32; 3]]>,
 }
 
 impl Mesh {
     /// A surface. Errors, with the triangle, unless it is closed, faces outward and does not cross itself.
     pub fn new(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
         closed::check(&vertices, &triangles)?;
-        let mesh = Mesh { vertices, triangles };
+        let mesh = Mesh { vertices, triangles: triangles.into() };
         let volume = mesh.volume();
         if volume.is_nan() || volume <= 0.0 {
             return Err(MeshError::InsideOut { volume });
@@ -25,7 +27,7 @@ impl Mesh {
 
     /// One that is known to be closed.
     pub(super) fn known(vertices: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
-        Mesh { vertices, triangles }
+        Mesh { vertices, triangles: triangles.into() }
     }
 
     /// The corners.
@@ -45,7 +47,10 @@ impl Mesh {
 
     /// The same with each corner moved.
     pub fn mapped(&self, to: impl Fn(&Vec3) -> Vec3) -> Self {
-        Mesh { vertices: self.vertices.iter().map(to).collect(), triangles: self.triangles.clone() }
+        Mesh {
+            vertices: self.vertices.iter().map(to).collect(),
+            triangles: Arc::clone(&self.triangles),
+        }
     }
 
     /// Volume.

@@ -4,11 +4,12 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use psmrt_reference::lattice::Vec3;
 use thiserror::Error;
 
+use super::filled::Filled;
 use super::mesh::Mesh;
 use super::pose::Pose;
-use super::shares::solid_shares;
+use super::shares::{WrongShare, solid_shares};
 
-/// The part of a body's volume that may get lost at faces or in other solids.
+/// The part of a body's volume that may get lost at faces.
 const MAY_MISS: f64 = 0.01;
 
 /// A body that moves, in cells.
@@ -30,8 +31,8 @@ pub struct MovingBody {
 pub struct Bodies {
     /// The bodies.
     pub moving: Vec<MovingBody>,
-    /// How much of each cell the solids fill that do not move.
-    pub filled: Vec<f32>,
+    /// What the solids fill that do not move.
+    pub filled: Filled,
 }
 
 /// A body that cannot go on.
@@ -39,8 +40,8 @@ pub struct Bodies {
 pub enum BodyStop {
     /// It leaves the domain.
     #[error(
-        "the body of grains[{section}] has left the domain with {:.1} % of its volume (1 % is the limit); stop the run before, \
-         let it move another way, or make the domain larger",
+        "the body of grains[{section}] has left the domain with {:.1} % of its volume (1 % is the limit; bodies do not come in again \
+         at periodic faces); stop the run before, let it move another way, or make the domain larger",
         100.0 * .missing
     )]
     Outside {
@@ -51,15 +52,25 @@ pub enum BodyStop {
     },
     /// It runs into another solid.
     #[error(
-        "the body of grains[{section}] has run into another solid: they have {:.1} % of its volume in common (1 % is the limit); \
-         stop the run before, or let it move another way",
+        "the body of grains[{section}] has run into solid {other} (from 0): they have {:.1} % of the volume of the smaller one in common \
+         (1 % is the limit); stop the run before, or let it move another way",
         100.0 * .common
     )]
     Into {
         /// Its section.
         section: usize,
-        /// Share of its volume that both fill.
+        /// The number of the other.
+        other: usize,
+        /// What both fill, over the volume of the smaller one.
         common: f64,
+    },
+    /// Its surface is none.
+    #[error("the body of grains[{section}]: {wrong}")]
+    Surface {
+        /// Its section.
+        section: usize,
+        /// What is wrong.
+        wrong: WrongShare,
     },
 }
 
@@ -87,19 +98,12 @@ impl MovingBody {
 
     /// The cells that it fills with its centre there. Errors if it does not lie in the domain.
     pub fn shares(&self, centre: &Vec3, cells: [usize; 3]) -> Result<Vec<(usize, f64)>, BodyStop> {
+        let section = self.section;
+        let placed = Pose { centre: *centre, turn: self.turn }.place(&self.mesh);
         let shares =
-            solid_shares(&Pose { centre: *centre, turn: self.turn }.place(&self.mesh), cells);
+            solid_shares(&placed, cells).map_err(|wrong| BodyStop::Surface { section, wrong })?;
         let inside: f64 = shares.iter().map(|(_, share)| share).sum();
         let missing = 1.0 - inside / self.volume;
-        let section = self.section;
         if missing > MAY_MISS { Err(BodyStop::Outside { section, missing }) } else { Ok(shares) }
-    }
-
-    /// Errors if too much of it lies in cells that others fill already; `filled`: their share of each cell.
-    pub fn keeps_out_of(&self, filled: &[f32], shares: &[(usize, f64)]) -> Result<(), BodyStop> {
-        let both = |&(cell, share): &(usize, f64)| (f64::from(filled[cell]) + share - 1.0).max(0.0);
-        let common = shares.iter().map(both).sum::<f64>() / self.volume;
-        let section = self.section;
-        if common > MAY_MISS { Err(BodyStop::Into { section, common }) } else { Ok(()) }
     }
 }

@@ -11,40 +11,69 @@
 //!
 //! with `A` the area of the piece seen from above, counted negative where it faces down, and `z̄` its mean height.
 
+use std::ops::Range;
+
 use psmrt_reference::lattice::Vec3;
+use rayon::prelude::*;
+use thiserror::Error;
 
 use super::mesh::Mesh;
 
 /// A share so near to 0 or 1 is that: what rounding leaves of a sum.
 const ROUNDING: f64 = 1e-10;
 
+/// A share so far beyond 0 or 1 is no rounding: parts of the surface overlap, or face inward.
+const WRONG: f64 = 1e-6;
+
+/// A surface that fills more than all of a cell, or less than nothing.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error(
+    "its surface fills {share:.4} of the cell [{}, {}, {}]: parts of it overlap each other, or one faces inward and is no cavity of \
+     another", .cell[0], .cell[1], .cell[2]
+)]
+pub struct WrongShare {
+    /// Coordinates of the cell.
+    pub cell: [usize; 3],
+    /// What is filled of it.
+    pub share: f64,
+}
+
 /// Cells of a domain of `cells` (x, y, z) that a body, in cells, fills in part: by number (x fastest), with their share in
-/// (0, 1]. What lies outside of the domain is left out.
-pub fn solid_shares(body: &Mesh, cells: [usize; 3]) -> Vec<(usize, f64)> {
-    let Some(mut grid) = Grid::about(body, cells) else { return Vec::new() };
-    for corners in body.corners() {
-        grid.add(corners);
+/// (0, 1]. What lies outside of the domain is left out. Sums are taken in the order of the triangles, whatever the number of
+/// threads. Errors if a share lies outside of 0 to 1.
+pub fn solid_shares(body: &Mesh, cells: [usize; 3]) -> Result<Vec<(usize, f64)>, WrongShare> {
+    let Some(about) = About::of(body, cells) else { return Ok(Vec::new()) };
+    let corners: Vec<[Vec3; 3]> = body.corners().collect();
+    // The triangles that reach into each plane of cells across x.
+    let mut planes = vec![Vec::new(); about.size[0]];
+    for (number, corners) in corners.iter().enumerate() {
+        for i in about.range(corners, 0) {
+            planes[i].push(number);
+        }
     }
-    grid.shares(cells)
+    let shares = planes.into_par_iter().enumerate().map(|(i, numbers)| {
+        let mut plane = Plane::empty(&about, i);
+        for number in numbers {
+            plane.add(&corners[number]);
+        }
+        plane.shares(cells)
+    });
+    let shares: Result<Vec<_>, _> = shares.collect();
+    let mut shares = shares?.concat();
+    shares.par_sort_unstable_by_key(|&(cell, _)| cell);
+    Ok(shares)
 }
 
 /// The cells about a body.
-struct Grid {
+struct About {
     /// The first along each axis.
     first: [i64; 3],
     size: [usize; 3],
-    /// The volume in each cell that is below pieces of triangles in it, z fastest.
-    inside: Vec<f64>,
-    /// The area of pieces over each cell that lie in the next one, z fastest: one more a column than there are cells.
-    above: Vec<f64>,
 }
 
-/// The corners of a piece of a triangle.
-type Piece = Vec<Vec3>;
-
-impl Grid {
+impl About {
     /// Nothing if the body lies outside of the domain.
-    fn about(body: &Mesh, cells: [usize; 3]) -> Option<Self> {
+    fn of(body: &Mesh, cells: [usize; 3]) -> Option<Self> {
         let [low, high] = body.bounds();
         let (mut first, mut size) = ([0; 3], [0; 3]);
         for axis in 0..3 {
@@ -53,94 +82,107 @@ impl Grid {
             let end = floor(high[axis]).min(last);
             size[axis] = usize::try_from(end - first[axis] + 1).ok().filter(|&size| size > 0)?;
         }
-        let columns = size[0] * size[1];
-        let (inside, above) = (vec![0.0; columns * size[2]], vec![0.0; columns * (size[2] + 1)]);
-        Some(Grid { first, size, inside, above })
+        Some(About { first, size })
     }
 
-    fn add(&mut self, corners: [Vec3; 3]) {
-        let whole: Piece = corners.to_vec();
-        let (mut row, mut column, mut slab) = (Piece::new(), Piece::new(), Piece::new());
-        let mut scratch = Piece::new();
-        for i in self.range(&whole, 0) {
-            cut(&whole, 0, self.edge(0, i), &mut scratch, &mut row);
-            for j in self.range(&row, 1) {
-                cut(&row, 1, self.edge(1, j), &mut scratch, &mut column);
-                let at = j + self.size[1] * i;
-                let (nz, lowest) = (self.size[2], self.first[2] as f64);
-                let heights = column.iter().map(|corner| corner.z - lowest);
-                let (low, high) = heights
-                    .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
-                // All of it over the column, or some of it.
-                if high >= nz as f64 {
-                    clip(&column, 2, lowest + nz as f64, 1.0, &mut slab);
-                    self.above[at * (nz + 1) + nz] += area_and_moment(&slab).0;
-                }
-                if high < 0.0 || low > nz as f64 {
-                    continue;
-                }
-                for k in self.range(&column, 2) {
-                    cut(&column, 2, self.edge(2, k), &mut scratch, &mut slab);
-                    let (area, moment) = area_and_moment(&slab);
-                    self.inside[at * nz + k] += moment - area * self.edge(2, k);
-                    self.above[at * (nz + 1) + k] += area;
-                }
-            }
-        }
-    }
-
-    /// Low edge of cell `number` of the grid along an axis.
+    /// Low edge of cell `number` of these along an axis.
     fn edge(&self, axis: usize, number: usize) -> f64 {
         self.first[axis] as f64 + number as f64
     }
 
-    /// Numbers of the cells of the grid that a piece reaches into along an axis.
-    fn range(&self, piece: &Piece, axis: usize) -> std::ops::Range<usize> {
-        let places = piece.iter().map(|corner| corner[axis]);
-        let (low, high) =
-            places.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    /// Numbers of the cells of these that a piece reaches into along an axis.
+    fn range(&self, piece: &[Vec3], axis: usize) -> Range<usize> {
+        let [low, high] = ends(piece, axis);
         let place = |x: f64| usize::try_from((floor(x) - self.first[axis]).max(0)).unwrap_or(0);
         if piece.is_empty() || high < self.first[axis] as f64 {
             return 0..0;
         }
         place(low)..(place(high) + 1).min(self.size[axis])
     }
+}
+
+/// The cells of these in one plane across x, z fastest.
+struct Plane<'a> {
+    about: &'a About,
+    number: usize,
+    /// The volume in each cell that is below pieces of triangles in it.
+    inside: Vec<f64>,
+    /// The area of pieces in each cell, and behind those of a column that of pieces above them all.
+    above: Vec<f64>,
+    scratch: [Piece; 4],
+}
+
+/// The corners of a piece of a triangle.
+type Piece = Vec<Vec3>;
+
+impl<'a> Plane<'a> {
+    fn empty(about: &'a About, number: usize) -> Self {
+        let [_, ny, nz] = about.size;
+        let (inside, above) = (vec![0.0; ny * nz], vec![0.0; ny * (nz + 1)]);
+        Plane { about, number, inside, above, scratch: Default::default() }
+    }
+
+    fn add(&mut self, corners: &[Vec3; 3]) {
+        let Plane { about, number, inside, above, scratch } = self;
+        let [half, row, column, slab] = scratch;
+        let nz = about.size[2];
+        let top = about.edge(2, nz);
+        cut(corners, 0, about.edge(0, *number), half, row);
+        for j in about.range(row, 1) {
+            cut(row, 1, about.edge(1, j), half, column);
+            // What lies above all of these cells.
+            if ends(column, 2)[1] >= top {
+                clip(column, 2, top, 1.0, slab);
+                above[j * (nz + 1) + nz] += area_and_moment(slab).0;
+            }
+            for k in about.range(column, 2) {
+                cut(column, 2, about.edge(2, k), half, slab);
+                let (area, moment) = area_and_moment(slab);
+                inside[j * nz + k] += moment - area * about.edge(2, k);
+                above[j * (nz + 1) + k] += area;
+            }
+        }
+    }
 
     /// Shares by the numbers of cells of the domain.
-    fn shares(&self, cells: [usize; 3]) -> Vec<(usize, f64)> {
-        let [nx, ny, nz] = self.size;
+    fn shares(&self, cells: [usize; 3]) -> Result<Vec<(usize, f64)>, WrongShare> {
+        let [_, ny, nz] = self.about.size;
         let mut all = Vec::new();
-        for i in 0..nx {
-            for j in 0..ny {
-                let at = j + ny * i;
-                let mut over = self.above[at * (nz + 1) + nz];
-                for k in (0..nz).rev() {
-                    let share = self.inside[at * nz + k] + over;
-                    over += self.above[at * (nz + 1) + k];
-                    if share > ROUNDING {
-                        let share = if share > 1.0 - ROUNDING { 1.0 } else { share };
-                        let place = [i, j, k].map(|n| n as i64);
-                        let [x, y, z] = [0, 1, 2].map(|axis| {
-                            usize::try_from(place[axis] + self.first[axis]).unwrap_or(0)
-                        });
-                        all.push((x + cells[0] * (y + cells[1] * z), share));
-                    }
+        for j in 0..ny {
+            let mut over = self.above[j * (nz + 1) + nz];
+            for k in (0..nz).rev() {
+                let share = self.inside[j * nz + k] + over;
+                over += self.above[j * (nz + 1) + k];
+                let place = [self.number, j, k].map(|n| n as i64);
+                let at = [0, 1, 2]
+                    .map(|axis| usize::try_from(place[axis] + self.about.first[axis]).unwrap_or(0));
+                if !(-WRONG..=1.0 + WRONG).contains(&share) {
+                    return Err(WrongShare { cell: at, share });
+                }
+                if share > ROUNDING {
+                    let share = if share > 1.0 - ROUNDING { 1.0 } else { share };
+                    all.push((at[0] + cells[0] * (at[1] + cells[1] * at[2]), share));
                 }
             }
         }
-        all.sort_unstable_by_key(|&(cell, _)| cell);
-        all
+        Ok(all)
     }
 }
 
+/// The lowest and the highest place of a piece along an axis.
+fn ends(piece: &[Vec3], axis: usize) -> [f64; 2] {
+    let places = piece.iter().map(|corner| corner[axis]);
+    places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}
+
 /// The part of a piece that lies between an edge and the next along an axis.
-fn cut(piece: &Piece, axis: usize, low: f64, scratch: &mut Piece, part: &mut Piece) {
+fn cut(piece: &[Vec3], axis: usize, low: f64, scratch: &mut Piece, part: &mut Piece) {
     clip(piece, axis, low, 1.0, scratch);
     clip(scratch, axis, low + 1.0, -1.0, part);
 }
 
 /// The part of a convex piece on the upper (`side` 1) or lower (-1) side of a plane across an axis.
-fn clip(piece: &Piece, axis: usize, plane: f64, side: f64, part: &mut Piece) {
+fn clip(piece: &[Vec3], axis: usize, plane: f64, side: f64, part: &mut Piece) {
     part.clear();
     for (number, here) in piece.iter().enumerate() {
         let next = &piece[(number + 1) % piece.len()];
@@ -157,7 +199,7 @@ fn clip(piece: &Piece, axis: usize, plane: f64, side: f64, part: &mut Piece) {
 }
 
 /// Area of a piece seen from above, negative if it faces down, and the integral of its height over it.
-fn area_and_moment(piece: &Piece) -> (f64, f64) {
+fn area_and_moment(piece: &[Vec3]) -> (f64, f64) {
     let Some((a, rest)) = piece.split_first() else { return (0.0, 0.0) };
     let fan = rest.windows(2).map(|pair| {
         let (b, c) = (&pair[0], &pair[1]);

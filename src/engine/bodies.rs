@@ -5,7 +5,8 @@ use psmrt_reference::solids::{Shape, Solid};
 
 use super::EngineStop;
 use super::coupled::Coupled;
-use crate::bodies::moving::{Bodies, MovingBody};
+use crate::bodies::filled::{Common, Filled};
+use crate::bodies::moving::{Bodies, BodyStop, MovingBody};
 
 impl Coupled {
     /// Lets these bodies move from now on.
@@ -14,16 +15,15 @@ impl Coupled {
             return;
         }
         let domain = &self.setup().domain;
-        let mut filled = vec![0.0; domain.cell_count()];
+        let mut filled = Filled::none(domain.cell_count());
         for (number, solid) in self.solids().iter().enumerate() {
             if moving.iter().any(|body| body.solid == number) {
                 continue;
             }
-            for covered in solid.covered(domain, CoverageRule::Exact) {
-                #[expect(clippy::cast_possible_truncation, reason = "a share")]
-                let share = covered.epsilon as f32;
-                filled[covered.cell] += share;
-            }
+            let covered = solid.covered(domain, CoverageRule::Exact);
+            let cells: Vec<_> = covered.iter().map(|at| (at.cell, at.epsilon)).collect();
+            // It stays.
+            let _ = filled.add(number, &cells);
         }
         self.bodies = Some(Bodies { moving: moving.to_vec(), filled });
     }
@@ -44,34 +44,24 @@ impl Coupled {
     /// Finds the cells that the bodies fill where `solids` are. Errors if one leaves the domain or runs into another solid.
     pub(super) fn shape_bodies(&mut self, solids: &mut [Solid]) -> Result<(), EngineStop> {
         let cells = self.setup().domain.cells();
+        let place = Some(self.steps);
         let Some(Bodies { moving, filled }) = &mut self.bodies else { return Ok(()) };
-        let mut put = Vec::new();
-        let mut found = Ok(());
-        for body in moving {
+        let mut added = Vec::new();
+        let mut put = |body: &MovingBody| {
             let solid = &mut solids[body.solid];
-            let shares = match body.shares(&solid.centre, cells) {
-                Ok(shares) => shares,
-                Err(stop) => {
-                    found = Err(stop);
-                    break;
-                }
-            };
-            found = body.keeps_out_of(filled, &shares);
-            if found.is_err() {
-                break;
+            let shares = body.shares(&solid.centre, cells)?;
+            if let Some(Common { other, share }) = filled.common(&shares) {
+                return Err(BodyStop::Into { section: body.section, other, common: share });
             }
             // The next one must keep out of it too.
-            for &(cell, share) in &shares {
-                put.push((cell, filled[cell]));
-                #[expect(clippy::cast_possible_truncation, reason = "a share")]
-                let share = share as f32;
-                filled[cell] += share;
-            }
-            solid.shape = Shape::Cells { fractions: shares.into(), place: Some(self.steps) };
+            added.push(filled.add(body.solid, &shares));
+            solid.shape = Shape::Cells { fractions: shares.into(), place };
+            Ok(())
+        };
+        let all_put = moving.iter().try_for_each(&mut put);
+        for last in added.into_iter().rev() {
+            filled.remove(last);
         }
-        for (cell, before) in put.into_iter().rev() {
-            filled[cell] = before;
-        }
-        Ok(found?)
+        Ok(all_put?)
     }
 }

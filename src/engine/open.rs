@@ -68,7 +68,8 @@ pub fn open(
     }
     let gpu = if name.needs_device() { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
     let state = |centre| scene.initial.at(centre);
-    let is_prescribed = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
+    let changes = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
+    let is_prescribed = changes || !scene.moving_bodies.is_empty();
     let whole = (&scene.setup, scene.free.as_ref());
     let mut engine = begin(name, whole, gpu.as_ref(), state, is_prescribed)?;
     engine.move_bodies(&scene.moving_bodies);

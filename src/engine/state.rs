@@ -35,7 +35,11 @@ impl Coupled {
             ];
             vectors.into_iter().try_for_each(|vector| put_vector(out, vector))?;
         }
-        for body in self.bodies.iter().flat_map(|bodies| &bodies.moving) {
+        let moving = self.bodies.as_ref().map_or(&[][..], |bodies| &bodies.moving);
+        if !moving.is_empty() {
+            put_whole(out, moving.len() as u64)?;
+        }
+        for body in moving {
             body.turn_numbers().into_iter().try_for_each(|number| put_real(out, number))?;
         }
         put_drive(out, &self.setup().drive())?;
@@ -65,6 +69,9 @@ impl Coupled {
             (solid.centre, solid.velocity, solid.angular_velocity) =
                 (vector(from)?, vector(from)?, vector(from)?);
             loads.push(Load { force: vector(from)?, torque: vector(from)? });
+        }
+        if let Some(bodies) = &self.bodies {
+            expect(whole(from)?, bodies.moving.len(), "bodies that move")?;
         }
         for body in self.bodies.iter_mut().flat_map(|bodies| &mut bodies.moving) {
             body.set_turn([real(from)?, real(from)?, real(from)?, real(from)?]);

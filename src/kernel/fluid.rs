@@ -235,6 +235,12 @@ impl Kernel {
     /// Puts the solids where `solids` says, with the velocities there. They must be as many as before
     /// and of the same shapes, and must have been announced as movable.
     pub fn place_solids(&mut self, solids: Vec<Solid>) -> Result<(), KernelError> {
+        let is_fixed = self.solids.as_ref().is_some_and(|on_device| on_device.movable().is_none());
+        if let (Some(phase), true) = (&self.setup.solid_phase, is_fixed)
+            && phase.solids.iter().zip(&solids).any(|(then, now)| now.covers_other_cells(then))
+        {
+            return self.place_fixed_solids(solids);
+        }
         if let (Some(phase), Some(on_device)) = (&mut self.setup.solid_phase, &mut self.solids) {
             phase.solids = solids;
             let since = self.watch.begin();
@@ -245,6 +251,16 @@ impl Kernel {
             self.watch.wait(&self.gpu, since, |times| &mut times.coverage)?;
         }
         Ok(())
+    }
+
+    /// Puts solids that do not move where a saved state has them: they moved before they were given another motion.
+    fn place_fixed_solids(&mut self, solids: Vec<Solid>) -> Result<(), KernelError> {
+        let Some(phase) = &mut self.setup.solid_phase else { return Ok(()) };
+        phase.solids = solids;
+        let phase = phase.clone();
+        let placed = Solids::new(&self.gpu, &self.recipe(), &phase)?;
+        self.solids = Some(placed);
+        self.list_cells()
     }
 
     /// Lists the cells for which the step of all cells is not valid.

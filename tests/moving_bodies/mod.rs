@@ -66,7 +66,7 @@ pub fn bodies_move_and_turn_as_on_the_oracle(
     for (solid, expected) in solids.iter().zip(oracle.solids()) {
         assert_eq!(solid, &expected, "places, motion and cells are found by the same code");
     }
-    // 40 steps of 1/600 s: 0.33 mm of 1.8, and the box has turned by 24 degrees about z.
+    // 40 steps of 1 ms.
     assert!(
         (solids[0].centre.x - 6.0 - 40.0 * 5e-3 / 1e-4 / 1000.0).abs() < 1e-9,
         "{:?}",

@@ -29,6 +29,11 @@ fn askew(random: &mut SplitMix64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_euler_angles(angle(), angle(), angle())
 }
 
+/// The shares of a body that is one.
+fn shares_of(body: &Mesh) -> Vec<(usize, f64)> {
+    solid_shares(body, CELLS).unwrap()
+}
+
 fn total(shares: &[(usize, f64)]) -> f64 {
     shares.iter().map(|(_, share)| share).sum()
 }
@@ -40,8 +45,7 @@ fn a_box_along_the_axes_fills_of_each_cell_the_product_of_three_lengths() {
         let edges = Vec3::from([0; 3].map(|_| 0.1 + 5.0 * random.unit()));
         // Some of them reach out of the domain.
         let centre = [0, 1, 2].map(|axis| CELLS[axis] as f64 * random.unit());
-        let shares =
-            solid_shares(&placed(&cuboid(&edges), centre, UnitQuaternion::identity()), CELLS);
+        let shares = shares_of(&placed(&cuboid(&edges), centre, UnitQuaternion::identity()));
         let mut found = vec![0.0; CELLS.iter().product()];
         for (cell, share) in shares {
             found[cell] = share;
@@ -76,7 +80,7 @@ fn bodies_however_turned_fill_their_volume() {
         assert!(mesh.middle().norm() < 1e-12, "{name}: about {:?}", mesh.middle());
         assert!(Mesh::new(mesh.vertices().to_vec(), mesh.triangles().to_vec()).is_ok(), "{name}");
         for _ in 0..10 {
-            let shares = solid_shares(&placed(&mesh, [6.1, 5.3, 4.9], askew(&mut random)), CELLS);
+            let shares = shares_of(&placed(&mesh, [6.1, 5.3, 4.9], askew(&mut random)));
             let found = total(&shares);
             assert!((found / volume - 1.0).abs() < 1e-8, "{name}: {found} of {volume} cells");
         }
@@ -89,7 +93,7 @@ fn a_turned_box_fills_of_each_cell_what_points_in_it_say() {
     let half = Vec3::new(2.1, 1.3, 2.7);
     let turn = askew(&mut random);
     let centre = [6.3, 5.2, 4.6];
-    let shares = solid_shares(&placed(&cuboid(&(2.0 * half)), centre, turn), CELLS);
+    let shares = shares_of(&placed(&cuboid(&(2.0 * half)), centre, turn));
     let back = turn.inverse();
     let mut worst = 0.0_f64;
     for &(cell, share) in &shares {
@@ -121,17 +125,17 @@ fn a_turned_box_fills_of_each_cell_what_points_in_it_say() {
 fn what_lies_beyond_the_domain_is_cut_off() {
     // The lower half of the domain, and a cylinder from its floor to its lid.
     let below = placed(&half_space(100.0), [6.0, 5.0, 5.0], UnitQuaternion::identity());
-    assert!((total(&solid_shares(&below, CELLS)) - 12.0 * 11.0 * 5.0).abs() < 1e-9);
+    assert!((total(&shares_of(&below)) - 12.0 * 11.0 * 5.0).abs() < 1e-9);
     let column = placed(&cylinder(3.0, 100.0), [6.0, 5.5, 5.0], UnitQuaternion::identity());
-    let shares = solid_shares(&column, CELLS);
+    let shares = shares_of(&column);
     assert!((total(&shares) / (PI * 9.0 * 10.0) - 1.0).abs() < 1e-9, "{}", total(&shares));
     // Just as high as the domain.
     let exact = placed(&cylinder(3.0, 10.0), [6.0, 5.5, 5.0], UnitQuaternion::identity());
-    for (one, other) in solid_shares(&exact, CELLS).iter().zip(&shares) {
+    for (one, other) in shares_of(&exact).iter().zip(&shares) {
         assert!(one.0 == other.0 && (one.1 - other.1).abs() < 1e-9, "{one:?} and {other:?}");
     }
     let outside = placed(&cylinder(3.0, 1.0), [30.0, 5.5, 5.0], UnitQuaternion::identity());
-    assert!(solid_shares(&outside, CELLS).is_empty());
+    assert!(shares_of(&outside).is_empty());
 }
 
 #[test]
@@ -146,7 +150,7 @@ fn a_sphere_of_ever_more_triangles_fills_what_the_sphere_does_at_second_order_in
     let worst = |level: u32| {
         let mesh = placed(&ball(radius, level), centre, UnitQuaternion::identity());
         let mut found = vec![0.0; domain.cell_count()];
-        for (cell, share) in solid_shares(&mesh, [24; 3]) {
+        for (cell, share) in solid_shares(&mesh, [24; 3]).unwrap() {
             found[cell] = share;
         }
         found.iter().zip(&expected).map(|(a, b)| f64::abs(a - b)).fold(0.0, f64::max)
@@ -210,6 +214,8 @@ fn surfaces_that_enclose_nothing_are_told_with_the_triangle() {
     apart.extend(vertices.iter().map(|v| v + Vec3::new(2.5, 0.0, 0.0)));
     let two = Mesh::new(apart, two).unwrap();
     assert!((two.volume() / good.volume() - 2.0).abs() < 1e-12);
+    let twice = change(&|all| all.extend(all.clone()));
+    assert!(matches!(twice, MeshError::Twice { .. }), "{twice}");
     for (bytes, told) in [
         (Vec::new(), "no STL file"),
         (b"nothing of the kind".to_vec(), "no STL file"),
@@ -220,4 +226,52 @@ fn surfaces_that_enclose_nothing_are_told_with_the_triangle() {
         let said = stl::mesh(bytes).unwrap_err().to_string();
         assert!(said.contains(told), "{said}");
     }
+}
+
+/// Two boxes of 4 cells, the second one `along` x from the first, turned inside out or not; their triangles in turn.
+fn two_boxes(along: f64, is_inside_out: bool) -> Result<Mesh, MeshError> {
+    let one = placed(&cuboid(&Vec3::repeat(4.0)), [3.0, 5.0, 5.0], UnitQuaternion::identity());
+    let count = u32::try_from(one.vertices().len()).unwrap();
+    let mut vertices = one.vertices().to_vec();
+    vertices.extend(one.vertices().iter().map(|v| v + Vec3::new(along, 0.0, 0.0)));
+    let mut triangles = Vec::new();
+    for &triangle in one.triangles() {
+        let [a, b, c] = triangle.map(|n| n + count);
+        triangles.push(triangle);
+        triangles.push(if is_inside_out { [a, c, b] } else { [a, b, c] });
+    }
+    Mesh::new(vertices, triangles)
+}
+
+#[test]
+fn parts_that_overlap_or_face_inward_are_told_by_the_cells_that_they_fill() {
+    // Sides in the same planes do not cross, and the volume of the two is that of the two.
+    let wrong = solid_shares(&two_boxes(2.0, false).unwrap(), CELLS).unwrap_err();
+    assert!((wrong.share - 2.0).abs() < 1e-9, "{wrong}");
+    assert!(wrong.to_string().contains("overlap"), "{wrong}");
+    assert!(matches!(two_boxes(5.0, true), Err(MeshError::InsideOut { .. })));
+    // Beside each other, and with a side in common, they are what they are.
+    for along in [4.0, 5.0] {
+        let shares = shares_of(&two_boxes(along, false).unwrap());
+        assert!((total(&shares) - 128.0).abs() < 1e-9, "{along}: {}", total(&shares));
+    }
+    // A cavity is a part that faces inward within another.
+    let outer = cuboid(&Vec3::repeat(6.0));
+    let inner = cuboid(&Vec3::repeat(3.0));
+    let mut vertices = outer.vertices().to_vec();
+    vertices.extend(inner.vertices());
+    let turned = inner.triangles().iter().map(|&[a, b, c]| [a + 8, c + 8, b + 8]);
+    let triangles: Vec<_> = outer.triangles().iter().copied().chain(turned).collect();
+    let hollow = Mesh::new(vertices.clone(), triangles.clone()).unwrap();
+    let shares = shares_of(&placed(&hollow, [5.5, 5.5, 5.0], UnitQuaternion::identity()));
+    assert!((total(&shares) - (216.0 - 27.0)).abs() < 1e-9, "{}", total(&shares));
+    // One that sticks out is none.
+    for corner in &mut vertices[8..] {
+        corner.x += 9.0;
+    }
+    let apart = Mesh::new(vertices, triangles).unwrap();
+    let wrong =
+        solid_shares(&placed(&apart, [3.5, 5.5, 5.0], UnitQuaternion::identity()), [20, 11, 10])
+            .unwrap_err();
+    assert!(wrong.share < -0.99, "{wrong}");
 }

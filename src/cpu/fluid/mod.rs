@@ -272,7 +272,7 @@ impl<T: Real> Fluid<T> {
     pub fn place_solids(&mut self, solids: Vec<Solid>) {
         if let (Some(phase), Some(coverage)) = (&mut self.setup.solid_phase, &mut self.coverage) {
             coverage.update(&self.setup.domain, &phase.solids, &solids, phase.coverage);
-            if phase.solids.iter().zip(&solids).any(|(then, now)| then.centre != now.centre) {
+            if phase.solids.iter().zip(&solids).any(|(then, now)| now.covers_other_cells(then)) {
                 self.held = None;
             }
             phase.solids = solids;

@@ -26,8 +26,14 @@ use crate::units::Units;
 /// How far a body may reach across a periodic face, cells: what rounding of lengths leaves.
 const REACHES_OUT: f64 = 1e-6;
 
-/// Bytes that an STL file may have: some 40 million triangles.
-const LARGEST: u64 = 2048 * input::MIB;
+/// Directions whose sine or cosine is below this are parallel or at right angles.
+const PARALLEL: f64 = 1e-12;
+
+/// Longer bodies, over the longest side of the domain, are mistaken units.
+const LARGEST_LENGTH: f64 = 1e6;
+
+/// Bytes that an STL file may have: some 10 million triangles.
+const LARGEST: u64 = 512 * input::MIB;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -46,8 +52,11 @@ enum Endless {
     Along(Vec3),
     /// In all directions across this one.
     Across(Vec3),
-    /// In all directions but along this one, where it has a bore.
-    Around(Vec3),
+    /// In all directions but for a bore of this radius along this one.
+    Around {
+        axis: Vec3,
+        bore: f64,
+    },
 }
 
 /// Puts the bodies of all sections behind the other solids of a list; those of them that move. Errors at the first that cannot be.
@@ -75,29 +84,23 @@ pub(super) fn add(
         let si_centre = needed(&at("centre"), section.centre, "a body needs it", remedy)?;
         finite(&at("centre"), &si_centre, "m")?;
         let centre = Units::to_lattice(si_centre, units.si_dx);
-        let form = form(body, number, files, (domain, units))?;
+        let form = form((body, &centre), number, files, (domain, units))?;
         let (velocity, spin) = motion(section, &at, units, files)?;
-        let reach = form.mesh.reach(&Vec3::zeros());
-        let moves = velocity.largest(Vec3::norm) != Vec3::zeros()
-            || spin.largest(Vec3::norm) != Vec3::zeros();
+        let moves = section.motion == MotionKind::Prescribed;
         if moves && form.endless != Endless::No {
             let problem = "a body without end cannot move";
-            return Err(Trouble::new(
-                at("motion"),
-                problem,
-                "give it a `length`, or make it \"fixed\"",
-            ));
+            let remedy = "give it a `length` (a pipe also a `wall`), or make it \"fixed\"";
+            return Err(Trouble::new(at("motion"), problem, remedy));
         }
-        check_speed(
-            &at("spin"),
-            &velocity.largest(Vec3::norm),
-            &spin.largest(Vec3::norm),
-            reach,
-            units,
-        )?;
+        let fastest = (velocity.largest(Vec3::norm), spin.largest(Vec3::norm));
+        let reach = form.mesh.reach(&Vec3::zeros());
+        check_speed(&at("spin"), &fastest.0, &fastest.1, reach, units)?;
         let placed = Pose { centre, turn: UnitQuaternion::identity() }.place(&form.mesh);
-        crosses_no_period(&at("body"), &form.endless, &placed, domain)?;
-        let shares = solid_shares(&placed, domain.cells());
+        crosses_no_period(&at("body"), (&form.endless, &centre), &placed, domain)?;
+        let shares = solid_shares(&placed, domain.cells()).map_err(|wrong| {
+            let remedy = "join the parts of the surface to one in the program that made it (a boolean union)";
+            Trouble::new(at("body"), wrong.to_string(), remedy)
+        })?;
         is_there(&at("centre"), &shares, (&form, moves), (domain, units))?;
         let solid = list.grains.len() + list.bodies.len();
         if velocity.varies() || spin.varies() {
@@ -121,7 +124,7 @@ pub(super) fn add(
 
 /// The surface about the centre, in cells.
 fn form(
-    body: &BodySection,
+    (body, centre): (&BodySection, &Vec3),
     number: usize,
     files: &mut Files,
     (domain, units): (&Domain, &Units),
@@ -132,10 +135,11 @@ fn form(
         let because = format!("a body of shape `{}` needs it", body.shape.word());
         let given = needed(&at(key), given, &because, "add it, in m")?;
         positive(&at(key), given, "m")?;
-        Ok::<_, Trouble>(given / units.si_dx)
+        not_huge(&at(key), given / units.si_dx, domain)
     };
-    // Beyond the domain from anywhere in it.
-    let beyond = 4.0 * Vec3::from(domain.cells().map(|n| n as f64)).norm();
+    // From the centre, wherever it is, beyond the domain.
+    let lengths = Vec3::from(domain.cells().map(|n| n as f64));
+    let beyond = 4.0 * lengths.norm() + 2.0 * (centre - 0.5 * lengths).norm();
     let along = |key: &'static str, given: Option<[f64; 3]>| {
         let because = format!("a body of shape `{}` needs it", body.shape.word());
         let given = needed(&at(key), given, &because, "add a direction, for example [0, 0, 1]")?;
@@ -145,7 +149,9 @@ fn form(
         |mesh: Mesh, turn: UnitQuaternion<f64>| Pose { centre: Vec3::zeros(), turn }.place(&mesh);
     Ok(match body.shape {
         BodyShapeName::Stl => {
-            let mesh = turned(read(body, &at, number, files, units)?, turn(body, &at)?);
+            let mesh = read(body, &at, number, files, units)?;
+            not_huge(&at("scale"), mesh.reach(&Vec3::zeros()), domain)?;
+            let mesh = turned(mesh, turn(body, &at)?);
             Form { mesh, endless: Endless::No }
         }
         BodyShapeName::Box => {
@@ -153,6 +159,7 @@ fn form(
                 needed(&at("size"), body.size, "a box needs it", "add `size = [x, y, z]` in m")?;
             for edge in size {
                 positive(&at("size"), edge, "m")?;
+                not_huge(&at("size"), edge / units.si_dx, domain)?;
             }
             let edges = Units::to_lattice(size, units.si_dx);
             Form { mesh: turned(formula::cuboid(&edges), turn(body, &at)?), endless: Endless::No }
@@ -176,7 +183,7 @@ fn form(
             let endless = match (wall, long) {
                 (Some(_), Some(_)) => Endless::No,
                 (Some(_), None) => Endless::Along(*axis),
-                (None, _) => Endless::Around(*axis),
+                (None, _) => Endless::Around { axis: *axis, bore: inner },
             };
             Form { mesh, endless }
         }
@@ -268,10 +275,23 @@ fn direction(key: &str, given: [f64; 3]) -> Result<Unit<Vec3>, Trouble> {
     })
 }
 
+/// A length in cells, unless it is out of all proportion to the domain.
+fn not_huge(key: &str, length: f64, domain: &Domain) -> Result<f64, Trouble> {
+    let longest = domain.cells().into_iter().max().unwrap_or(1) as f64;
+    if length <= LARGEST_LENGTH * longest {
+        return Ok(length);
+    }
+    let problem = format!(
+        "the body would be {length:.1e} cells long, and the domain has {longest} along its longest side; {LARGEST_LENGTH:.0} times \
+         that is the limit"
+    );
+    Err(Trouble::new(key, problem, "lengths are in metres (a micrometre is 1e-6)"))
+}
+
 /// Errors if a body reaches across a periodic face and does not go on beyond it as it comes in on the other side.
 fn crosses_no_period(
     key: &str,
-    endless: &Endless,
+    (endless, centre): (&Endless, &Vec3),
     placed: &Mesh,
     domain: &Domain,
 ) -> Result<(), Trouble> {
@@ -279,18 +299,22 @@ fn crosses_no_period(
     for axis in (0..3).filter(|&axis| domain.is_periodic(axis)) {
         let mut unit = Vec3::zeros();
         unit[axis] = 1.0;
+        let end = domain.cells()[axis] as f64;
+        let is_within = |low: f64, high: f64| low >= -REACHES_OUT && high <= end + REACHES_OUT;
         // Whether it is the same a period further on.
         let goes_on = match endless {
             Endless::No => false,
-            Endless::Along(along) | Endless::Around(along) => along.cross(&unit).norm() < 1e-12,
-            Endless::Across(normal) => normal.dot(&unit).abs() < 1e-12,
+            Endless::Along(along) => along.cross(&unit).norm() < PARALLEL,
+            Endless::Across(normal) => normal.dot(&unit).abs() < PARALLEL,
+            // All is solid at the faces that the bore does not come to.
+            Endless::Around { axis: along, bore } => {
+                along.cross(&unit).norm() < PARALLEL
+                    || (along.dot(&unit).abs() < PARALLEL
+                        && is_within(centre[axis] - bore, centre[axis] + bore))
+            }
         };
-        let end = domain.cells()[axis] as f64;
-        if goes_on || (low[axis] >= -REACHES_OUT && high[axis] <= end + REACHES_OUT) {
+        if goes_on || is_within(low[axis], high[axis]) {
             continue;
-        }
-        if let Endless::Around(_) = endless {
-            continue; // the wall of a pipe: all is solid at those faces
         }
         let problem = format!(
             "it reaches across a periodic face along {}, and would be cut off there",

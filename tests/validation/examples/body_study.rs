@@ -15,7 +15,7 @@ use psmrt_validation::cases::images::Cylinder;
 use psmrt_validation::cases::{Bench, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut bench = Bench::new(Path::new("golden"), EngineName::Cpu, None, |_| {});
+    let mut bench = Bench::new(Path::new("golden"), EngineName::CpuSingle, None, |_| {});
     let study = Study::new("golden/images/cylinder.csv");
     for (is_stl, cells, reynolds) in
         [(true, 10, 20.0), (true, 10, 40.0), (false, 10, 20.0), (true, 20, 20.0), (true, 20, 40.0)]

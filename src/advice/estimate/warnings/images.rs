@@ -87,10 +87,10 @@ fn ends(scene: &Scene, axis: usize) -> Option<Warning> {
     let name = AXES[axis];
     let reason = format!(
         "across the periodic face along {name} the solid fraction of neighbouring cells differs {ratio:.1} times as much as \
-         elsewhere: the ends of the image do not fit to each other, and throats close or open there that the sample does not have"
+         elsewhere: the ends of the solids do not fit to each other, and throats close or open there that the sample does not have"
     );
     let remedy = format!(
-        "`image.mirror = [\"{name}\"]`, or walls, mirror planes or pressure faces along {name}; in a long sample it matters little"
+        "for an image `image.mirror = [\"{name}\"]`, or walls, mirror planes or pressure faces along {name}; in a long sample it matters little"
     );
     Some(warning(reason, remedy))
 }

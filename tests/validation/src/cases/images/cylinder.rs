@@ -78,7 +78,7 @@ pub(super) fn claims(golden: &Golden) -> Result<Vec<Claim>, CaseError> {
         what: "study: drag of the STL cylinder over that of the cylinder by formula, Re 20, 10 cells per diameter".to_owned(),
         measured: of("stl")? / of("cylinder")?,
         allowed: 0.9999..=1.0001,
-        why: "the same 256 sides, in the file to single precision, on either side 1e-4 for a steady state known to that",
+        why: "the same 256 sides, in the file to single precision, and runs that the same rule ends",
     });
     Ok(claims)
 }
