@@ -9,6 +9,7 @@ mod bodies;
 pub mod checkpoint;
 mod collision;
 pub mod contact;
+pub mod contact_values;
 pub mod domain;
 mod effort;
 mod faces;
