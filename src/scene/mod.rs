@@ -5,7 +5,7 @@
 //! | `source.rs`, `path.rs` | the text, and where each key stands |
 //! | `changes.rs` | `--set` |
 //! | `edit.rs` | changes of the text that the program makes |
-//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_initial.rs`, `format_run.rs`, `format_time.rs`, `format_voxels.rs` | the keys: names, types, and what they mean |
+//! | `format.rs`, `format_grains.rs`, `format_free.rs`, `format_initial.rs`, `format_lists.rs`, `format_run.rs`, `format_time.rs`, `format_voxels.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
 //! | `initial.rs` | how the fluid starts |
 //! | `shape.rs` | sections, keys and types as the schema has them |
@@ -22,6 +22,7 @@ pub mod format;
 pub mod format_free;
 pub mod format_grains;
 pub mod format_initial;
+pub mod format_lists;
 pub mod format_run;
 pub mod format_time;
 pub mod format_voxels;

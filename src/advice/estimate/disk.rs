@@ -26,8 +26,8 @@ const OUTLINE: f64 = 1500.0;
 /// What stands before the numbers in the files of a record, each time.
 const HEADS: f64 = 3e3;
 
-/// A grain in a file for ParaView: 22 numbers in double precision, and two of the lists of points.
-const GRAIN_POINT: f64 = 24.0 * 8.0;
+/// A grain in a file for ParaView: 23 numbers in double precision, and two of the lists of points.
+const GRAIN_POINT: f64 = 25.0 * 8.0;
 
 /// A contact in such a file: 13 numbers, and three of the lists of lines. In the densest packing each of two grains has
 /// twelve contacts.

@@ -25,6 +25,7 @@ mod list_text;
 mod listed;
 mod lubrication;
 mod maker;
+mod mapped_columns;
 mod mirrors;
 pub(crate) mod neighbours;
 pub(crate) mod numbers;
@@ -37,6 +38,8 @@ mod solid;
 pub mod stop;
 mod time;
 mod voxels;
+mod vtk_file;
+mod vtk_list;
 
 use std::path::Path;
 
