@@ -6,6 +6,7 @@
 //! | `coupled.rs`, `state.rs` | [`Coupled`]: a fluid engine with what is the same above every one: free grains, prescribed motion, guard, profile, saved state |
 //! | `name.rs`, `open.rs` | [`EngineName`]; [`open`]: the engine of a scene by its name; the list of engines |
 //! | `reference.rs`, `cpu.rs`, `wgpu.rs` | the oracle, the CPU engine and the kernel as fluid engines |
+//! | `no_fluid.rs` | what stands there in a scene without fluid |
 //! | `free_state.rs`, `bytes.rs` | free grains, and numbers, as bytes |
 
 mod block;
@@ -16,6 +17,7 @@ mod driven;
 mod fluid;
 pub mod free_state;
 mod name;
+mod no_fluid;
 mod open;
 mod reference;
 mod state;
@@ -37,6 +39,7 @@ pub use coupled::{Coupled, Profile};
 pub use cpu::CpuEngine;
 pub use fluid::{BoxMeans, CellState, FluidEngine};
 pub use name::EngineName;
+pub use no_fluid::{NoFluid, WithoutFluid};
 pub use open::{Start, from_populations, open, starting_from};
 pub use reference::ReferenceEngine;
 pub use wgpu::KernelEngine;

@@ -145,9 +145,11 @@ fn grains(scene: &Scene, engine: &Coupled, path: &Path) -> io::Result<()> {
         Array::new("diameter (m)", 1, columns(4..5)),
         Array::new("velocity (m/s)", 3, columns(5..8)),
         Array::new("spin (rad/s)", 3, columns(8..11)),
-        Array::new("force (N)", 3, columns(11..14)),
-        Array::new("torque (N m)", 3, columns(14..17)),
     ];
+    if !scene.is_dry {
+        arrays.push(Array::new("force (N)", 3, columns(11..14)));
+        arrays.push(Array::new("torque (N m)", 3, columns(14..17)));
+    }
     if let Some(system) = engine.free_grains() {
         // Those that are not free have no density.
         if rows.len() == system.grains().len() && system.grains().iter().all(|grain| !grain.held) {

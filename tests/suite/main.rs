@@ -44,6 +44,7 @@ mod conformance_oracle;
 mod cpu_engine;
 mod diagnosis;
 mod drive;
+mod dry;
 mod exact_text;
 mod extremes;
 mod going_on;

@@ -112,7 +112,7 @@ fn checkpoints(scene: &Scene) -> f64 {
     let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision));
     let population = f64::from(engine.bytes_of_number());
     let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
-    let cells = scene.setup.domain.cell_count() as f64;
+    let cells = if scene.is_dry { 0.0 } else { scene.setup.domain.cell_count() as f64 };
     CHECKPOINTS * (19.0 * population * cells + GRAIN_STATE * solids)
 }
 

@@ -38,7 +38,7 @@ pub const BAD: &[Bad] = &[
     Bad("[initial]\nvelocity = [1e-3, 0.0, 0.0]", "[initial]\nvelocity = 1e-3", "initial.velocity", "three values [x, y, z]"),
     Bad("[checkpoint]", "[grains.more]\n[checkpoint]", "grains[2].more", "has no key `more`"),
     Bad("[[records]]\nname = \"box\"\nkind = \"box\"\nevery_steps = 100\n[[records]]\nname = \"line\"\nkind = \"profile\"\naxis = \"x\"\npoint = [0.0, 2.5e-4, 2.5e-4]\n[[records]]", "[records]", "records", "write [[records]]"),
-    Bad("[fluid]\ndensity = 1000.0\nkinematic_viscosity = 1e-6", "", "fluid", "kinematic_viscosity = 1e-6"),
+    Bad("[fluid]\ndensity = 1000.0\nkinematic_viscosity = 1e-6", "", "time.tau", "kinematic_viscosity = 1e-6"),
     Bad("[stop]\ntime = 0.01\n[stop.steady]\nrecord = \"box\"\ncolumn = \"density\"\ntolerance = 1e-6", "", "stop", "[stop]\n"),
     Bad("kinematic_viscosity = 1e-6", "dynamic_viscosity = 1e-3", "fluid.dynamic_viscosity", "kinematic = dynamic / density; write `kinematic_viscosity = 1e-6`"),
     Bad("kinematic_viscosity = 1e-6", "mu = 1e-3", "fluid.mu", "write `kinematic_viscosity = 1e-6`"),
