@@ -259,6 +259,7 @@ fn check_says_that_grains_alone_are_computed_and_plan_that_there_is_nothing_to_p
         "buoyancy",
         "Stokes",
         "density ratio",
+        "bounce-back",
         "populations",
         "solid.operator",
     ] {
@@ -298,6 +299,18 @@ fn keys_of_the_fluid_are_refused_where_there_is_none() {
         format!("[[records]]\nname = \"r\"\nkind = \"{kind}\"\n{more}[stop]")
     };
     for (from, to, key, told) in [
+        (
+            "motion = \"free\"",
+            "motion = \"free\"\nvelocity = [3.0, 0.0, 0.0]".to_owned(),
+            "grains[0].velocity",
+            "0.300 times `domain.dx`",
+        ),
+        (
+            "x_low.kind = \"wall\"",
+            "x_low = { kind = \"wall\", velocity = [0.0, 3.0, 0.0] }".to_owned(),
+            "faces.x_low.velocity",
+            "shorten the time step",
+        ),
         ("dt = 1e-4", "tau = 0.8".to_owned(), "time.tau", "[fluid]"),
         (
             "dt = 1e-4",

@@ -29,6 +29,9 @@ pub fn models(scene: &Scene) -> Vec<String> {
                     face_words(&setup.domain.faces().axis(axis)[side]),
                     memory * scene.units.si_dt
                 )),
+                Face::Wall { .. } if scene.is_dry => {
+                    models.push(format!("face {name}: wall, in contact with grains"));
+                }
                 face => models.push(format!("face {name}: {}", face_words(&face))),
             }
         }

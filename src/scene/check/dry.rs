@@ -2,8 +2,8 @@
 
 use psmrt_reference::coupling::{CouplingSettings, Gravity, InternalFluid};
 
-use super::Trouble;
-use super::numbers::{needed, positive, sane};
+use super::numbers::{beyond, needed, positive, sane, shorter_step};
+use super::{MAX_SPEED, Trouble};
 use crate::scene::format::{FaceKind, FaceSection, SceneFile, TimeSection};
 use crate::scene::format_free::GravityForm;
 use crate::scene::format_grains::GrainsKind;
@@ -84,13 +84,7 @@ pub(super) fn check(file: &SceneFile) -> Result<(), Trouble> {
 
 /// Errors at a face that only a fluid passes or feels.
 fn faces(file: &SceneFile) -> Result<(), Trouble> {
-    let faces = &file.faces;
-    let given = [
-        [&faces.x_low, &faces.x_high],
-        [&faces.y_low, &faces.y_high],
-        [&faces.z_low, &faces.z_high],
-    ];
-    for (face, name) in given.as_flattened().iter().zip(FACE_KEYS.as_flattened()) {
+    for (name, face) in faces_of(file) {
         let Some(FaceSection { kind, velocity, .. }) = face else { continue };
         if !matches!(kind, FaceKind::Periodic | FaceKind::Wall | FaceKind::FreeSlip) {
             let problem = "only fluid passes it, and the scene has none; it may be `periodic`, `wall` or `free_slip`";
@@ -110,6 +104,18 @@ fn faces(file: &SceneFile) -> Result<(), Trouble> {
         }
     }
     Ok(())
+}
+
+/// The faces with their names.
+fn faces_of(file: &SceneFile) -> Vec<(&'static str, Option<&FaceSection>)> {
+    let faces = &file.faces;
+    let given = [
+        [&faces.x_low, &faces.x_high],
+        [&faces.y_low, &faces.y_high],
+        [&faces.z_low, &faces.z_high],
+    ];
+    let given = given.as_flattened().iter().map(|face| face.as_ref());
+    FACE_KEYS.as_flattened().iter().copied().zip(given).collect()
 }
 
 /// Trouble with a key of the fluid.
@@ -140,6 +146,31 @@ pub(super) fn units(section: &TimeSection, si_dx: f64) -> Result<Units, Trouble>
     positive("time.dt", si_dt, "s")?;
     sane("time.dt", si_dt, 1e-15..=1e9, "s")?;
     Ok(Units { si_dx, si_dt, si_density: SI_DENSITY })
+}
+
+/// Errors at a velocity with which something moves too far in a step for its contacts to be seen in time.
+pub(super) fn slow_enough(file: &SceneFile, units: &Units) -> Result<(), Trouble> {
+    let grains =
+        file.grains.iter().enumerate().map(|(number, section)| {
+            (format!("grains[{number}].velocity"), section.velocity.as_ref())
+        });
+    let faces = faces_of(file).into_iter().map(|(name, face)| {
+        (format!("faces.{name}.velocity"), face.and_then(|face| face.velocity.as_ref()))
+    });
+    for (key, velocity) in grains.chain(faces) {
+        let Some(VectorInTime::Constant(si_velocity)) = velocity else { continue };
+        let speed = Units::to_lattice(*si_velocity, units.si_velocity()).norm();
+        if speed > MAX_SPEED {
+            let problem = format!(
+                "it is {} times `domain.dx` in a time step; at most {MAX_SPEED} is allowed",
+                beyond(speed, MAX_SPEED)
+            );
+            let remedy =
+                shorter_step(units, 0.5 * MAX_SPEED / speed) + ", or take a larger `domain.dx`";
+            return Err(Trouble::new(key, problem, remedy));
+        }
+    }
+    Ok(())
 }
 
 /// How grains move where no fluid acts on them: all their weight does, and they hold no fluid.

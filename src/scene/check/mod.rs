@@ -82,7 +82,11 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
             check_fluid(fluid)?;
             time::units_and_tau(&file.time, fluid, file.domain.dx)?
         }
-        None => (dry::units(&file.time, file.domain.dx)?, dry::NOMINAL_TAU),
+        None => {
+            let units = dry::units(&file.time, file.domain.dx)?;
+            dry::slow_enough(file, &units)?;
+            (units, dry::NOMINAL_TAU)
+        }
     };
     let collision = collision::collision(&file.collision.clone().unwrap_or_default(), tau)?;
     let mut files = Files { folder, attachments: Vec::new() };
