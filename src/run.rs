@@ -61,7 +61,7 @@ pub trait Watcher {
     fn watch(&mut self, steps: u64, left: Option<f64>) -> bool;
 }
 
-/// Steps between two calls of the watcher, at most: about so many cell updates.
+/// Steps between two calls of the watcher, at most: about so many cell updates, or steps of a grain.
 const BATCH_UPDATES: u64 = 200_000;
 
 /// Runs a scene to its end, with its results in `folder`: from the start, or from where the engine
@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
             // The loads of each step are summed.
             return now + 1;
         }
-        let batch = (BATCH_UPDATES / self.scene.setup.domain.cell_count() as u64).max(1);
+        let batch = (BATCH_UPDATES / self.scene.updates_per_step()).max(1);
         records.fold(checkpoint.min(now + batch).min(self.scene.stop.steps), u64::min)
     }
 

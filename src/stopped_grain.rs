@@ -7,7 +7,7 @@ use psmrt_reference::grains::hold::{self, DEEPEST, Sunk, SunkInto};
 use psmrt_reference::grains::laws::Law;
 use psmrt_reference::grains::setup::GrainError;
 use psmrt_reference::grains::system::GrainSystem;
-use psmrt_reference::lattice::{Vec3, viscosity};
+use psmrt_reference::lattice::Vec3;
 use thiserror::Error;
 
 use crate::engine::{Coupled, EngineStop};
@@ -54,7 +54,7 @@ pub(crate) fn explained(stop: &EngineStop, scene: &Scene, engine: &Coupled) -> O
         GrainError::NotFinite { grain, position } => {
             let finite = |vector: &Vec3| vector.iter().all(|x| x.is_finite());
             let is_fluid = engine.loads().iter().any(|l| !(finite(&l.force) && finite(&l.torque)));
-            Situation::nowhere(*grain, position, is_fluid)
+            situation.nowhere(*grain, position, is_fluid)
         }
         _ => return None,
     };
@@ -131,9 +131,11 @@ impl Situation<'_> {
             return (failure, cause, self.shorter(speed));
         }
         if speed > MAX_SPEED {
-            let cause = format!(
-                "the grain moves at {speed:.2} cells per time step, at which the flow around it is unstable"
-            );
+            let why = match self.scene.is_dry {
+                true => "too fast for its contacts to be seen in time",
+                false => "at which the flow around it is unstable",
+            };
+            let cause = format!("the grain moves at {speed:.2} cells per time step, {why}");
             return (failure, cause, self.shorter(speed));
         }
         let cause = if stopping > 0.1 * sunk.radius {
@@ -145,8 +147,9 @@ impl Situation<'_> {
             )
         } else {
             format!(
-                "contacts are too soft ({hardness}) for the {:.2e} N with which fluid and other grains press on it",
-                law.at(sunk.overlap, sunk.radius, mass).stiffness * sunk.overlap * units.si_force()
+                "contacts are too soft ({hardness}) for the {:.2e} N with which {} press on it",
+                law.at(sunk.overlap, sunk.radius, mass).stiffness * sunk.overlap * units.si_force(),
+                if self.scene.is_dry { "other grains" } else { "fluid and other grains" }
             )
         };
         (failure, cause, harder)
@@ -169,7 +172,7 @@ impl Situation<'_> {
     }
 
     /// A grain that is nowhere.
-    fn nowhere(grain: usize, position: &[f64; 3], is_fluid: bool) -> Words {
+    fn nowhere(&self, grain: usize, position: &[f64; 3], is_fluid: bool) -> Words {
         let failure = match position.iter().all(|x| x.is_finite()) {
             true => {
                 format!("grain {grain} (counted from 0) is too far away for cells to be numbered")
@@ -184,7 +187,10 @@ impl Situation<'_> {
                 (failure, cause, "use a shorter time step or a finer grid".to_owned())
             }
             false => {
-                let cause = "contacts: all hydrodynamic forces are finite".to_owned();
+                let cause = match self.scene.is_dry {
+                    true => "contacts: nothing else acts on it but its weight".to_owned(),
+                    false => "contacts: all hydrodynamic forces are finite".to_owned(),
+                };
                 let remedy = "look for grains at the same position at the start, and leave [contact] out to have it \
                               chosen";
                 (failure, cause, remedy.to_owned())
@@ -215,7 +221,7 @@ impl Situation<'_> {
     fn burden(&self) -> Burden {
         let g = self.part.settings.gravity.as_ref().map_or_else(Vec3::zeros, Gravity::acceleration);
         let setup = &self.scene.setup;
-        Burden::new(&self.part.grains, &g, &setup.domain, viscosity(setup.collision.tau()))
+        Burden::new(&self.part.grains, &g, &setup.domain, self.scene.around())
     }
 
     /// The remedy of contacts that are so many times as stiff.

@@ -33,6 +33,11 @@ pub(super) fn with_fluid_of_run(
         return Err(refused(problem, "give the folder that `psmrt run` has named"));
     }
     let other = Scene::load(&other_file, &[])?;
+    if other.is_dry {
+        let problem = "that run had no fluid".to_owned();
+        let remedy = "start from its grains: `file = \".../grains_at_end.csv\"` in [[grains]]";
+        return Err(refused(problem, remedy));
+    }
     let (own_cells, cells) = (scene.setup.domain.cells(), other.setup.domain.cells());
     let ratio = scene.units.si_dx / other.units.si_dx;
     if own_cells != cells || (ratio - 1.0).abs() > 1e-9 {

@@ -35,9 +35,10 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     warnings.extend(disk::warnings(&scene, Path::new(".")));
     let speed = calibrate(&scene, &mut engine, CALIBRATION);
     if request.json {
+        let updates = format!("{}_per_second", scene.update_name().replace(' ', "_"));
         let engines = speed.map(|pace| {
             json!([{
-                "engine": engine.name(), "cell_updates_per_second": pace.updates_per_second,
+                "engine": engine.name(), updates: pace.updates_per_second,
                 "seconds": pace.seconds[0], "seconds_as_busy_as_now": pace.seconds[1],
             }])
         });
@@ -56,11 +57,12 @@ pub fn check(request: &CheckRequest) -> Result<(), CommandError> {
     }
     match speed {
         Some(pace) => say(&format!(
-            "  {:<20}{:<17} engine {}, {:.2} million cell updates a second alone on this machine",
+            "  {:<20}{:<17} engine {}, {:.2} million {} a second alone on this machine",
             "time, at most",
             range(pace.seconds),
             engine.name(),
-            pace.updates_per_second / 1e6
+            pace.updates_per_second / 1e6,
+            scene.update_name()
         )),
         None => say("  the first steps of the calibration failed: run it to see why"),
     }

@@ -23,6 +23,10 @@ use crate::seepage::spheres::{has_image, spheres_of};
 
 /// All that can be concluded.
 pub(super) fn conclusions(scene: &Scene, engine: &Coupled, end: End) -> Vec<Conclusion> {
+    if scene.is_dry {
+        // All of these are of the fluid.
+        return Vec::new();
+    }
     let found = [
         permeability(scene, engine, end),
         drag_coefficient(scene, engine, end),

@@ -119,17 +119,17 @@ pub(super) fn execute(
         return verdict;
     }
     let steps = engine.steps();
-    let updates = (steps - first_step) as f64 * scene.setup.domain.cell_count() as f64;
+    let updates = (steps - first_step) as f64 * scene.updates_per_step() as f64;
     say(&format!(
-        "{} after {steps} steps ({:.4e} s); {seconds:.2} s of computing, {:.2} million cell updates \
-         a second",
+        "{} after {steps} steps ({:.4e} s); {seconds:.2} s of computing, {:.2} million {} a second",
         match end {
             End::Steady { .. } => "steady",
             End::NotSteady { .. } => "at its limit and NOT steady",
             End::Limit | End::Interrupted => "at its limit",
         },
         steps as f64 * scene.units.si_dt,
-        updates / seconds / 1e6
+        updates / seconds / 1e6,
+        scene.update_name()
     ));
     if let Some(operator) = operator(scene) {
         say(&operator);
@@ -261,7 +261,7 @@ fn write_facts(
         "written_unix_time": unix_time,
         "dt_s": scene.units.si_dt,
         "dx_m": scene.units.si_dx,
-        "tau": scene.setup.collision.tau(),
+        "tau": (!scene.is_dry).then(|| scene.setup.collision.tau()),
         "solid_operator": operator(scene),
         "warnings": all_warnings(scene, folder.path()),
         "steady": end.map(|end| summary::steady(scene, engine, end)),

@@ -213,6 +213,10 @@ fn engine_of(scene: &Scene) -> EngineName {
         return named;
     }
     let cpu = EngineName::cpu(scene.precision);
+    if scene.is_dry {
+        // Grains are computed on the processor whatever the engine.
+        return cpu;
+    }
     if scene.precision == Some(Precision::Double) {
         tell("engine auto: double precision is asked for, so the CPU engine (cpu) computes");
         return cpu;

@@ -93,6 +93,12 @@ pub fn plan(request: &PlanRequest) -> Result<(), CommandError> {
     let engine = engine_of(&scene).kind();
     let scene = Scene { engine, ..scene.at_its_strongest().into_owned() };
     let name = request.scene.display();
+    if scene.is_dry {
+        return Err(CommandError::Usage(format!(
+            "{name} has no fluid, and a plan is for the grid of one: free grains alone are computed, and their sub-steps are chosen \
+             from the contacts; `psmrt check` says how many and how long that takes"
+        )));
+    }
     let facts = Facts::of(&scene)?
         .map_err(|why| CommandError::Usage(format!("{name} cannot be planned: {why}")))?;
     let wanted = request.error.0;

@@ -18,7 +18,8 @@ const LINE_EVERY: Duration = Duration::from_secs(10);
 pub struct ProgressLine {
     bar: Option<ProgressBar>,
     quiet: bool,
-    cells: u64,
+    updates: u64,
+    name: &'static str,
     limit: u64,
     start: Instant,
     start_steps: Option<u64>,
@@ -38,11 +39,12 @@ impl ProgressLine {
             ProgressBar::with_draw_target(Some(limit), ProgressDrawTarget::stderr())
                 .with_style(style)
         });
-        let (start, cells) = (Instant::now(), scene.setup.domain.cell_count() as u64);
+        let start = Instant::now();
         ProgressLine {
             bar,
             quiet,
-            cells,
+            updates: scene.updates_per_step(),
+            name: scene.update_name(),
             limit,
             start,
             start_steps: None,
@@ -65,19 +67,19 @@ impl Watcher for ProgressLine {
     fn watch(&mut self, steps: u64, left: Option<f64>) -> bool {
         let start_steps = *self.start_steps.get_or_insert(steps);
         let seconds = self.start.elapsed().as_secs_f64().max(1e-3);
-        let rate = ((steps - start_steps) * self.cells) as f64 / seconds;
+        let rate = ((steps - start_steps) * self.updates) as f64 / seconds;
         let to_go = match left {
             Some(left) if left.is_finite() => format!(", {left:.1e} to go until steady"),
             Some(_) => ", not slowing down".to_owned(),
             None => String::new(),
         };
-        let message = format!("{:.2} million cells/s{to_go}", rate / 1e6);
+        let message = format!("{:.2} million {} a second{to_go}", rate / 1e6, self.name);
         if let Some(bar) = &self.bar {
             bar.set_position(steps);
             bar.set_message(message);
         } else if !self.quiet && self.last_line.elapsed() > LINE_EVERY {
             self.last_line = Instant::now();
-            let left = ((self.limit - steps) * self.cells) as f64 / rate;
+            let left = ((self.limit - steps) * self.updates) as f64 / rate;
             tell(&format!(
                 "step {steps} of at most {}: {message}, at most {left:.0} s left",
                 self.limit

@@ -7,6 +7,7 @@
 //! | `bodies.rs` | bodies of any shape that move as prescribed |
 //! | `name.rs`, `open.rs` | [`EngineName`]; [`open`]: the engine of a scene by its name; the list of engines |
 //! | `reference.rs`, `cpu.rs`, `wgpu.rs` | the oracle, the CPU engine and the kernel as fluid engines |
+//! | `no_fluid.rs` | what stands there in a scene without fluid |
 //! | `free_state.rs`, `bytes.rs` | free grains, and numbers, as bytes |
 
 mod block;
@@ -18,6 +19,7 @@ mod driven;
 mod fluid;
 pub mod free_state;
 mod name;
+mod no_fluid;
 mod open;
 mod reference;
 mod state;
@@ -40,6 +42,7 @@ pub use coupled::{Coupled, Profile};
 pub use cpu::CpuEngine;
 pub use fluid::{BoxMeans, CellState, FluidEngine};
 pub use name::EngineName;
+pub use no_fluid::{NoFluid, WithoutFluid};
 pub use open::{Start, from_populations, open, starting_from};
 pub use reference::ReferenceEngine;
 pub use wgpu::KernelEngine;

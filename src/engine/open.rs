@@ -10,7 +10,8 @@ use psmrt_reference::solids::Solid;
 
 use super::coupled::{Coupled, Grains};
 use super::{
-    CpuEngine, DeviceError, EngineName, FluidEngine, KernelEngine, ReferenceEngine, StartError,
+    CpuEngine, DeviceError, EngineName, FluidEngine, KernelEngine, NoFluid, ReferenceEngine,
+    StartError,
 };
 use crate::kernel::Gpu;
 use crate::scene::{FreePart, Scene};
@@ -66,12 +67,16 @@ pub fn open(
         // Before a device is opened in vain.
         can_couple(&scene.setup, part)?;
     }
-    let gpu = if name.needs_device() { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
+    let needs_device = name.needs_device() && !scene.is_dry;
+    let gpu = if needs_device { Some(device(gpu, scene.adapter.as_deref())?) } else { None };
     let state = |centre| scene.initial.at(centre);
     let changes = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
     let is_prescribed = changes || !scene.moving_bodies.is_empty();
     let whole = (&scene.setup, scene.free.as_ref());
-    let mut engine = begin(name, whole, gpu.as_ref(), state, is_prescribed)?;
+    let mut engine = match scene.is_dry {
+        true => without_fluid(name, whole)?,
+        false => begin(name, whole, gpu.as_ref(), state, is_prescribed)?,
+    };
     engine.move_bodies(&scene.moving_bodies);
     if let Some(drives) = &scene.drives {
         engine.follow(drives.clone())?;
@@ -129,20 +134,33 @@ fn begin(
     state: impl Fn(Vec3) -> (f64, Vec3),
     can_move: bool,
 ) -> Result<Coupled, StartError> {
-    setup.check()?;
-    let mut setup = setup.clone();
-    let grains = match free {
-        Some(part) => {
-            can_couple(&setup, part)?;
-            let moving = part.free_grains(&setup.domain)?;
-            let solids = setup.solid_phase.as_mut().map(|phase| &mut phase.solids);
-            place_grains(part, &moving, solids.unwrap_or(&mut Vec::new()))?;
-            Some(Grains { moving, part: part.clone() })
-        }
-        None => None,
-    };
+    let (setup, grains) = with_grains(setup, free)?;
     let start = Start::State { state: &state, is_free: can_move || grains.is_some() };
     Ok(Coupled::new(fluid(name, setup, gpu, &start)?, grains))
+}
+
+/// Free grains alone, whatever engine is to compute: they are the same above every one.
+fn without_fluid(
+    name: EngineName,
+    (setup, free): (&Setup, Option<&FreePart>),
+) -> Result<Coupled, StartError> {
+    let (setup, grains) = with_grains(setup, free)?;
+    Ok(Coupled::new(Box::new(NoFluid::new(name, setup)), grains))
+}
+
+/// A set-up that has passed its checks with the free grains as solids, and these.
+fn with_grains(
+    setup: &Setup,
+    free: Option<&FreePart>,
+) -> Result<(Setup, Option<Grains>), StartError> {
+    setup.check()?;
+    let mut setup = setup.clone();
+    let Some(part) = free else { return Ok((setup, None)) };
+    can_couple(&setup, part)?;
+    let moving = part.free_grains(&setup.domain)?;
+    let solids = setup.solid_phase.as_mut().map(|phase| &mut phase.solids);
+    place_grains(part, &moving, solids.unwrap_or(&mut Vec::new()))?;
+    Ok((setup, Some(Grains { moving, part: part.clone() })))
 }
 
 /// A fluid with the given populations, one set per cell, and no free grains. `gpu` as for [`starting_from`]. Errors if

@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use psmrt_reference::grains::grain::{Grain, sphere_volume};
+
 use super::vtk::Array;
 use super::wrapped::wrapped;
 use super::{atomic, contacts, grain_means, npy, vtk};
@@ -143,10 +145,19 @@ fn grains(scene: &Scene, engine: &Coupled, path: &Path) -> io::Result<()> {
         Array::new("diameter (m)", 1, columns(4..5)),
         Array::new("velocity (m/s)", 3, columns(5..8)),
         Array::new("spin (rad/s)", 3, columns(8..11)),
-        Array::new("force (N)", 3, columns(11..14)),
-        Array::new("torque (N m)", 3, columns(14..17)),
     ];
+    if !scene.is_dry {
+        arrays.push(Array::new("force (N)", 3, columns(11..14)));
+        arrays.push(Array::new("torque (N m)", 3, columns(14..17)));
+    }
     if let Some(system) = engine.free_grains() {
+        // Those that are not free have no density.
+        if rows.len() == system.grains().len() && system.grains().iter().all(|grain| !grain.held) {
+            let si_density =
+                |grain: &Grain| grain.mass / sphere_volume(grain.radius) * scene.units.si_density;
+            let values = system.grains().iter().map(si_density);
+            arrays.push(Array::new("density (kg/m3)", 1, values));
+        }
         // A solid that is no grain has no contacts.
         let (mut counts, mut forces) = (vec![0.0; rows.len()], vec![[0.0; 3]; rows.len()]);
         let of_grains = grain_means::contacts_of_each(&system.state());

@@ -14,7 +14,7 @@ use crate::scene::names::FACE_KEYS;
 pub struct FaceForces {
     /// Its name.
     pub face: &'static str,
-    /// Of the fluid, the pressure being that above the reference.
+    /// Of the fluid, the pressure being that above the reference; 0 where there is none.
     pub fluid: [f64; 3],
     /// Of the grains.
     pub grains: [f64; 3],
@@ -31,7 +31,10 @@ pub fn forces(scene: &Scene, engine: &Coupled) -> Vec<FaceForces> {
             if face == Face::Periodic {
                 continue;
             }
-            let fluid = of_fluid(domain, engine, (axis, side), &face);
+            let fluid = match scene.is_dry {
+                true => Vec3::zeros(),
+                false => of_fluid(domain, engine, (axis, side), &face),
+            };
             all.push(FaceForces {
                 face: FACE_KEYS[axis][side],
                 fluid: (fluid * scene.units.si_force()).into(),

@@ -24,13 +24,15 @@ pub struct SceneFile {
     pub title: Option<String>,
     /// The domain.
     pub domain: DomainSection,
-    /// The fluid.
-    pub fluid: FluidSection,
+    /// The fluid. A scene without it computes its free grains alone: weight, contacts, walls; `time.dt` is needed then, and keys of
+    /// the fluid are refused. `domain.dx` is only the unit of its lengths: no cells are there, and a grain may be smaller. Faces may
+    /// be periodic, walls or mirror planes; records of kind `grains`, `grain_means`, `contacts`, `contact_means` and `walls` are
+    /// taken (with no force of a fluid). The list that the run leaves, `grains_at_end.csv`, starts a scene with fluid.
+    pub fluid: Option<FluidSection>,
     /// The time step.
     pub time: TimeSection,
     /// The fluid's collision; MRT with d'Humieres' rates where the section is absent.
-    #[serde(default)]
-    pub collision: CollisionSection,
+    pub collision: Option<CollisionSection>,
     /// What happens at the six faces; those that are absent are periodic.
     #[serde(default)]
     pub faces: FacesSection,
@@ -91,7 +93,8 @@ pub struct FluidSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeSection {
-    /// Time step, s.
+    /// Time step, s. Without `fluid` the only one of these; contacts take as many sub-steps in it as they need, and no grain may
+    /// move by more than a fifth of `domain.dx` in it.
     pub dt: Option<f64>,
     /// Relaxation time in time steps, above 0.5: `dt = (tau - 0.5)/3 dx2/kinematic_viscosity`. Errors at grains grow
     /// with `tau - 0.5`, and the cost falls with it: Pareto-optimal runs with errors below 10 % have tau 0.55 to 0.8

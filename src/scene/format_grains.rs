@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::format_bodies::BodySection;
+use super::format_lists::ColumnsSection;
 use super::format_time::VectorInTime;
 use super::format_voxels::ImageSection;
 use super::triple::Triple;
@@ -27,8 +28,13 @@ pub struct GrainsSection {
     /// grain. Free grains may have `velocity_x (m/s)` to `velocity_z (m/s)` and `spin_x (rad/s)` to `spin_z (rad/s)`, as at the
     /// start. A run with free grains leaves such a list of them, `grains_at_end.csv`. A dump of LAMMPS or LIGGGHTS in SI units (its last
     /// frame, with places from the low corner of its box; columns `x y z`, `radius` or `diameter`, and perhaps `density`, `vx vy vz`, `omegax omegay omegaz`; others are left out) and
-    /// the text of YADE's `export.text` are read as well. Blank lines and lines that begin with `#` are left out.
+    /// the text of YADE's `export.text` are read as well, and so are VTK's files of points (`.vtp`, `.vtu`), those of records of kind
+    /// `grains` and those that ParaView saves as text or without compression: `Points` in m and the arrays `diameter (m)` or
+    /// `radius (m)`, and perhaps `density (kg/m3)`, `velocity (m/s)`, `spin (rad/s)`. All grains of a file move as the section says.
+    /// Blank lines and lines that begin with `#` are left out.
     pub file: Option<String>,
+    /// With `csv`: which columns are what, for a table of another program.
+    pub columns: Option<ColumnsSection>,
     /// With `voxels`: the image.
     pub image: Option<ImageSection>,
     /// With `body`: its shape and its size.

@@ -8,7 +8,7 @@ use super::synonyms::{key_of, words_of};
 use crate::quote::shown;
 
 /// Sections to paste.
-const EXAMPLES: [(&str, &str); 15] = [
+const EXAMPLES: [(&str, &str); 16] = [
     ("domain", "[domain]\ndx = 1e-5            # m, the edge of a cell\ncells = [40, 20, 20]"),
     ("fluid", "[fluid]\ndensity = 998.0       # kg/m3\nkinematic_viscosity = 1e-6  # m2/s"),
     ("time", "[time]\ntau = 0.8             # relaxation time in time steps\n# or dt, in s"),
@@ -26,6 +26,11 @@ const EXAMPLES: [(&str, &str); 15] = [
         "grains",
         "[[grains]]\nkind = \"sphere\"\ncentre = [2e-4, 1e-4, 1e-4]  # m\ndiameter = 1e-4       # m",
     ),
+    (
+        "grains.columns",
+        "[grains.columns]\nx = \"X [mm]\"         # the names in the first line of the file\ny = \"Y [mm]\"\n\
+         z = \"Z [mm]\"\nradius = \"R [mm]\"\nlengths_in = 1e-3     # m",
+    ),
     ("records", "[[records]]\nname = \"box\"\nkind = \"box\"\nevery_steps = 100"),
     ("checkpoint", "[checkpoint]\nevery_minutes = 10.0"),
     ("engine", "[engine]\nkind = \"reference\""),
@@ -35,7 +40,9 @@ const EXAMPLES: [(&str, &str); 15] = [
 
 /// Lines of a section to paste.
 pub(super) fn example(key: &str) -> String {
-    match EXAMPLES.iter().find(|(name, _)| *name == key) {
+    // `grains[2].columns` is `grains.columns` of the last `[[grains]]` above.
+    let plain: String = key.split(['[', ']']).step_by(2).collect();
+    match EXAMPLES.iter().find(|(name, _)| *name == plain) {
         Some((_, lines)) => (*lines).to_owned(),
         None => format!("[{key}]\n# its keys: psmrt schema --markdown"),
     }

@@ -5,7 +5,7 @@
 //! | `source.rs`, `path.rs` | the text, and where each key stands |
 //! | `changes.rs` | `--set` |
 //! | `edit.rs` | changes of the text that the program makes |
-//! | `format.rs`, `format_grains.rs`, `format_bodies.rs`, `format_free.rs`, `format_initial.rs`, `format_run.rs`, `format_time.rs`, `format_voxels.rs` | the keys: names, types, and what they mean |
+//! | `format.rs`, `format_grains.rs`, `format_bodies.rs`, `format_free.rs`, `format_initial.rs`, `format_lists.rs`, `format_run.rs`, `format_time.rs`, `format_voxels.rs` | the keys: names, types, and what they mean |
 //! | `check/` | values that make sense, in lattice units |
 //! | `initial.rs` | how the fluid starts |
 //! | `shape.rs` | sections, keys and types as the schema has them |
@@ -23,6 +23,7 @@ pub mod format_bodies;
 pub mod format_free;
 pub mod format_grains;
 pub mod format_initial;
+pub mod format_lists;
 pub mod format_run;
 pub mod format_time;
 pub mod format_voxels;
@@ -40,6 +41,7 @@ pub mod trouble;
 
 use std::path::Path;
 
+use psmrt_reference::lattice::viscosity;
 use psmrt_reference::setup::Setup;
 
 pub use changes::{differ, preset_changes};
@@ -57,6 +59,7 @@ use crate::exact::PlanePoiseuille;
 use crate::in_time::Drives;
 use crate::units::Units;
 use crate::{input, quote};
+use check::hardness::Around;
 use format_grains::OperatorName;
 use initial::{CellsAtStart, Initial};
 use source::Source;
@@ -77,6 +80,8 @@ pub struct Scene {
     pub units: Units,
     /// The domain, the fluid and the solids in lattice units; free grains too, where they start.
     pub setup: Setup,
+    /// Whether there is no fluid: the collision of the set-up is then one that nobody asks for.
+    pub is_dry: bool,
     /// Whether `solid.operator` was not named, so that it was chosen.
     pub operator_is_chosen: bool,
     /// How the grains move, if some are free.
@@ -135,6 +140,27 @@ impl Scene {
         let file = source.read()?;
         let scene = check::scene(&file, folder).map_err(|trouble| source.error(trouble))?;
         Ok(Scene { text: source.text, ..scene })
+    }
+
+    /// What is around the grains.
+    pub(crate) fn around(&self) -> Around {
+        match self.is_dry {
+            true => Around::Nothing,
+            false => Around::Fluid { nu: viscosity(self.setup.collision.tau()) },
+        }
+    }
+
+    /// What a step computes anew: the cells of the fluid, or the grains where there is none.
+    pub fn updates_per_step(&self) -> u64 {
+        match &self.free {
+            Some(part) if self.is_dry => part.grains.len() as u64,
+            _ => self.setup.domain.cell_count() as u64,
+        }
+    }
+
+    /// What such an update is called.
+    pub fn update_name(&self) -> &'static str {
+        if self.is_dry { "grain steps" } else { "cell updates" }
     }
 
     /// The same scene as a run keeps it, so that it goes on with the same: its text names the copies of its

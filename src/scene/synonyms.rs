@@ -38,7 +38,7 @@ const KEYS: [(&str, &str); 33] = [
 ];
 
 /// Words: another name, and psmrt's, several where they have to be told apart.
-const WORDS: [(&str, &[&str]); 64] = [
+const WORDS: [(&str, &[&str]); 70] = [
     // Faces.
     ("no_slip", &["wall"]),
     ("noslip", &["wall"]),
@@ -92,6 +92,13 @@ const WORDS: [(&str, &[&str]); 64] = [
     ("mobile", &["free"]),
     ("linear", &["solid_fraction"]),
     ("nt", &["noble_torczynski"]),
+    // Delimiters.
+    (",", &["comma"]),
+    (";", &["semicolon"]),
+    ("space", &["blanks"]),
+    ("spaces", &["blanks"]),
+    ("whitespace", &["blanks"]),
+    ("tabulator", &["tab"]),
     // Records.
     ("mean", &["box"]),
     ("means", &["box"]),

@@ -26,8 +26,8 @@ const OUTLINE: f64 = 1500.0;
 /// What stands before the numbers in the files of a record, each time.
 const HEADS: f64 = 3e3;
 
-/// A grain in a file for ParaView: 22 numbers in double precision, and two of the lists of points.
-const GRAIN_POINT: f64 = 24.0 * 8.0;
+/// A grain in a file for ParaView: 23 numbers in double precision, and two of the lists of points.
+const GRAIN_POINT: f64 = 25.0 * 8.0;
 
 /// A contact in such a file: 13 numbers, and three of the lists of lines. In the densest packing each of two grains has
 /// twelve contacts.
@@ -112,7 +112,7 @@ fn checkpoints(scene: &Scene) -> f64 {
     let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision));
     let population = f64::from(engine.bytes_of_number());
     let solids = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len()) as f64;
-    let cells = scene.setup.domain.cell_count() as f64;
+    let cells = if scene.is_dry { 0.0 } else { scene.setup.domain.cell_count() as f64 };
     CHECKPOINTS * (19.0 * population * cells + GRAIN_STATE * solids)
 }
 

@@ -41,8 +41,7 @@ pub(super) fn stokes_velocity(scene: &Scene) -> Option<(f64, f64)> {
 
 /// What weight and impacts do to the contacts.
 pub(super) fn burden(scene: &Scene, part: &FreePart) -> Burden {
-    let nu = viscosity(scene.setup.collision.tau());
-    Burden::new(&part.grains, &pull(part), &scene.setup.domain, nu)
+    Burden::new(&part.grains, &pull(part), &scene.setup.domain, scene.around())
 }
 
 /// The derived numbers.
@@ -60,19 +59,22 @@ pub(super) fn numbers(scene: &Scene) -> Vec<Number> {
         Substeps::Automatic => "25 in the shortest contact",
         Substeps::Fixed(_) => "as given",
     };
-    let mut numbers = vec![
-        number("free grains", count as f64, "", format!("of {}", part.grains.len())),
-        number("density ratio", low, "", note),
-    ];
+    let mut numbers =
+        vec![number("free grains", count as f64, "", format!("of {}", part.grains.len()))];
+    if !scene.is_dry {
+        numbers.push(number("density ratio", low, "", note));
+    }
     numbers.extend(contacts::numbers(scene, part, burden(scene, part).speed()));
     numbers.push(number("sub-steps", f64::from(substeps), "", format!("in a time step; {chosen}")));
-    if let Some((settle, _)) = stokes_velocity(scene) {
-        let Overlaps { in_bed, one_on_one, in_impact } =
-            burden(scene, part).overlaps(&part.setup.law);
+    if let Some((settle, _)) = stokes_velocity(scene).filter(|_| !scene.is_dry) {
         let note = format!(
             "{settle:.2e} cells per time step; of the fastest grain, alone and without inertia"
         );
         numbers.push(number("Stokes velocity", settle * units.si_velocity(), "m/s", note));
+    }
+    let burden = burden(scene, part);
+    if burden.stiffness() > 0.0 {
+        let Overlaps { in_bed, one_on_one, in_impact } = burden.overlaps(&part.setup.law);
         let note = "of a diameter: the heaviest grain at rest on the smallest";
         numbers.push(number("overlap", one_on_one, "", note));
         let note = "of a diameter: the mean, at the bottom of a bed of all free grains";
@@ -97,9 +99,11 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
     } else {
         ""
     };
-    let mut models = vec![format!(
-        "free grains: DEM (motion = \"free\"); internal mass {inertia}{averaged}{solved}"
-    )];
+    let mut models = vec![if scene.is_dry {
+        "free grains: DEM (motion = \"free\"), alone: the scene has no fluid".to_owned()
+    } else {
+        format!("free grains: DEM (motion = \"free\"); internal mass {inertia}{averaged}{solved}")
+    }];
     models.push(contacts::model(scene, part));
     if let Some(lubrication) = part.setup.lubrication {
         models.push(format!(
@@ -110,6 +114,9 @@ pub(super) fn models(scene: &Scene) -> Vec<String> {
         ));
     }
     match settings.gravity {
+        Some(Gravity::Reduced { .. }) if scene.is_dry => {
+            models.push("gravity: all of its weight acts on a grain".to_owned());
+        }
         Some(Gravity::Reduced { .. }) => {
             models
                 .push("gravity: reduced pressure, weight less buoyancy acts on grains".to_owned());

@@ -34,8 +34,11 @@ pub fn parts(scene: &Scene) -> Vec<Part> {
     let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision));
     let real = u64::from(engine.bytes_of_number());
     let copies = u64::from(engine.copies());
-    let mut parts = vec![Part { what: "populations", bytes: copies * 19 * real * cells }];
-    if let Some(phase) = &scene.setup.solid_phase {
+    let mut parts = Vec::new();
+    if !scene.is_dry {
+        parts.push(Part { what: "populations", bytes: copies * 19 * real * cells });
+    }
+    if let Some(phase) = scene.setup.solid_phase.as_ref().filter(|_| !scene.is_dry) {
         let touched: f64 = phase.solids.iter().map(Solid::most_cells).sum();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let touched = (touched as u64).min(2 * cells);
@@ -71,6 +74,7 @@ fn of_record(scene: &Scene, what: &What) -> u64 {
         What::Profile { axis, .. } => (state + 48) * [nx, ny, nz][axis],
         // Cells of a plane at a time.
         What::Layers { .. } => (state + 8) * nx * ny,
+        What::Walls if scene.is_dry => 0,
         What::Walls => (19 * 8 + 8) * (nx * ny).max(nx * nz).max(ny * nz),
         What::Loads | What::Grains | What::GrainMeans | What::ContactMeans | What::Contacts => {
             let grains = scene.setup.solid_phase.as_ref().map_or(0, |phase| phase.solids.len());

@@ -14,39 +14,7 @@ use crate::scene::{OutputInterval, Scene, What};
 /// The models that are on, each with the reason.
 pub fn models(scene: &Scene) -> Vec<String> {
     let setup = &scene.setup;
-    let mut models = vec![match setup.collision {
-        Collision::Srt { .. } => "collision: SRT, that is BGK (collision.model)".to_owned(),
-        Collision::Mrt { rates } => format!(
-            "collision: MRT, s_e {:.4}, s_eps {:.4}, s_q {:.4}, s_nu {:.4}, s_pi {:.4}, s_m {:.4}",
-            rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m
-        ),
-    }];
-    if let Some(phase) = &setup.solid_phase {
-        models.push(format!(
-            "partial saturation: {}, {}, coverage {} (there are grains)",
-            match phase.weighting {
-                Weighting::NobleTorczynski => "Noble-Torczynski weighting",
-                Weighting::SolidFraction => "weighting by solid fraction",
-                Weighting::Graded => "its own weighting",
-            },
-            match phase.operator {
-                SolidOperator::NonEquilibriumBounceBack => "non-equilibrium bounce-back",
-                SolidOperator::Superposition => "superposition",
-                SolidOperator::FullBounceBack => "full bounce-back",
-                SolidOperator::GradedViscosity => "graded viscosity",
-            },
-            match phase.coverage {
-                CoverageRule::Exact => "exact".to_owned(),
-                CoverageRule::Sampled { n } => format!("sampled {n} x {n} x {n}"),
-                CoverageRule::Linear => "linear".to_owned(),
-            }
-        ));
-        models.extend(operator(scene));
-        let changing = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
-        if changing || phase.solids.iter().any(Solid::moves) {
-            models.push("moving grains: coverage is computed in every step".to_owned());
-        }
-    }
+    let mut models = if scene.is_dry { Vec::new() } else { of_fluid(scene) };
     models.extend(grains::models(scene));
     if setup.body_force.is_some() {
         models.push("body force: Guo (body_force)".to_owned());
@@ -61,6 +29,9 @@ pub fn models(scene: &Scene) -> Vec<String> {
                     face_words(&setup.domain.faces().axis(axis)[side]),
                     memory * scene.units.si_dt
                 )),
+                Face::Wall { .. } if scene.is_dry => {
+                    models.push(format!("face {name}: wall, in contact with grains"));
+                }
                 face => models.push(format!("face {name}: {}", face_words(&face))),
             }
         }
@@ -99,9 +70,48 @@ pub fn models(scene: &Scene) -> Vec<String> {
     models
 }
 
+/// Those of the fluid and of the solids in it.
+fn of_fluid(scene: &Scene) -> Vec<String> {
+    let setup = &scene.setup;
+    let mut models = vec![match setup.collision {
+        Collision::Srt { .. } => "collision: SRT, that is BGK (collision.model)".to_owned(),
+        Collision::Mrt { rates } => format!(
+            "collision: MRT, s_e {:.4}, s_eps {:.4}, s_q {:.4}, s_nu {:.4}, s_pi {:.4}, s_m {:.4}",
+            rates.e, rates.eps, rates.q, rates.nu, rates.pi, rates.m
+        ),
+    }];
+    if let Some(phase) = &setup.solid_phase {
+        models.push(format!(
+            "partial saturation: {}, {}, coverage {} (there are grains)",
+            match phase.weighting {
+                Weighting::NobleTorczynski => "Noble-Torczynski weighting",
+                Weighting::SolidFraction => "weighting by solid fraction",
+                Weighting::Graded => "its own weighting",
+            },
+            match phase.operator {
+                SolidOperator::NonEquilibriumBounceBack => "non-equilibrium bounce-back",
+                SolidOperator::Superposition => "superposition",
+                SolidOperator::FullBounceBack => "full bounce-back",
+                SolidOperator::GradedViscosity => "graded viscosity",
+            },
+            match phase.coverage {
+                CoverageRule::Exact => "exact".to_owned(),
+                CoverageRule::Sampled { n } => format!("sampled {n} x {n} x {n}"),
+                CoverageRule::Linear => "linear".to_owned(),
+            }
+        ));
+        models.extend(operator(scene));
+        let changing = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
+        if changing || phase.solids.iter().any(Solid::moves) {
+            models.push("moving grains: coverage is computed in every step".to_owned());
+        }
+    }
+    models
+}
+
 /// The operator of the solid, and whether it was chosen, in a line; none without grains.
 pub fn operator(scene: &Scene) -> Option<String> {
-    let phase = scene.setup.solid_phase.as_ref()?;
+    let phase = scene.setup.solid_phase.as_ref().filter(|_| !scene.is_dry)?;
     let word = OperatorName::of(phase.operator).word();
     let changing = scene.drives.as_ref().is_some_and(|drives| !drives.prescribed.is_empty());
     let is_moved = changing || scene.free.is_some() || phase.solids.iter().any(Solid::has_velocity);

@@ -64,6 +64,28 @@ fn grading(scene: &Scene) -> Option<Number> {
 /// The derived numbers, with values that change in time at their largest.
 pub fn numbers(scene: &Scene) -> Vec<Number> {
     let scene = &*scene.at_its_strongest();
+    let mut numbers = if scene.is_dry { of_dry_scene(scene) } else { of_fluid(scene) };
+    numbers.extend(grains::numbers(scene));
+    numbers.extend(of_effort(scene));
+    numbers
+}
+
+/// Those of a scene without fluid.
+fn of_dry_scene(scene: &Scene) -> Vec<Number> {
+    let units = &scene.units;
+    let [x, y, z] = scene.setup.domain.cells().map(|n| n as f64 * units.si_dx);
+    let note = "along x; there is no fluid, and no cells";
+    let mut numbers = vec![
+        number("domain", x, "m", format!("{note}; {y:.4e} m along y, {z:.4e} m along z")),
+        number("dt", units.si_dt, "s", "time step"),
+    ];
+    numbers.extend(grading(scene));
+    numbers.push(number("solid fraction", solid_fraction(scene), "", "grains over domain"));
+    numbers
+}
+
+/// Those of the fluid and of the solids in it.
+fn of_fluid(scene: &Scene) -> Vec<Number> {
     let (units, tau) = (&scene.units, scene.setup.collision.tau());
     let cells = scene.setup.domain.cells();
     let count = scene.setup.domain.cell_count();
@@ -113,7 +135,12 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
     }
     numbers.extend(seepage::numbers(scene));
     numbers.extend(predicted_error(scene));
-    numbers.extend(grains::numbers(scene));
+    numbers
+}
+
+/// What the scene will cost.
+fn of_effort(scene: &Scene) -> Vec<Number> {
+    let mut numbers = Vec::new();
     let engine = EngineName::of(scene).unwrap_or(EngineName::cpu(scene.precision)).word();
     let parts: Vec<_> = memory::parts(scene).iter().map(|part| part.what).collect();
     let mib = memory::needed(scene) as f64 / f64::from(1 << 20);
@@ -121,7 +148,7 @@ pub fn numbers(scene: &Scene) -> Vec<Number> {
     let written = super::disk::bytes(scene);
     let note = "of records, their pictures and checkpoints, at most";
     numbers.push(number("disk", written / f64::from(1 << 20), "MiB", note));
-    let (steps, si_time) = (scene.stop.steps as f64, scene.stop.steps as f64 * units.si_dt);
+    let (steps, si_time) = (scene.stop.steps as f64, scene.stop.steps as f64 * scene.units.si_dt);
     numbers.push(number("steps", steps, "", format!("at most; {si_time:.4e} s")));
     numbers
 }

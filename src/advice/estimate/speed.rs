@@ -26,7 +26,7 @@ pub struct Try {
 pub struct Pace {
     /// Seconds per step alone on the machine, and with what else it does now.
     pub seconds_per_step: [f64; 2],
-    /// Cell updates per second, alone on the machine.
+    /// Cell updates per second, alone on the machine; steps of a grain without fluid.
     pub updates_per_second: f64,
     /// Seconds that all steps would take, alone and now.
     pub seconds: [f64; 2],
@@ -42,7 +42,9 @@ pub fn calibrate(scene: &Scene, engine: &mut Coupled, budget: Duration) -> Optio
     let is_on_device = engine.adapter().is_some();
     if scene.stop.steps > 2 {
         engine.step(2).ok()?;
-        engine.box_means();
+        if !scene.is_dry {
+            engine.box_means();
+        }
     }
     let (start, mut batch, mut tries) = (Instant::now(), 1, Vec::new());
     while (tries.is_empty() || start.elapsed() < budget) && engine.steps() < scene.stop.steps {
@@ -61,10 +63,10 @@ pub fn calibrate(scene: &Scene, engine: &mut Coupled, budget: Duration) -> Optio
         }
     }
     let seconds_per_step = seconds_per_step(&tries)?;
-    let cells = scene.setup.domain.cell_count() as f64;
+    let updates = scene.updates_per_step() as f64;
     Some(Pace {
         seconds_per_step,
-        updates_per_second: cells / seconds_per_step[0],
+        updates_per_second: updates / seconds_per_step[0],
         seconds: seconds_per_step.map(|seconds| seconds * scene.stop.steps as f64),
     })
 }

@@ -40,9 +40,16 @@ const TOPICS: &[fn(&Scene) -> Vec<Warning>] = &[
     in_time::warnings,
 ];
 
+/// Those of a scene without fluid.
+const OF_GRAINS: &[fn(&Scene) -> Vec<Warning>] =
+    &[contacts::warnings, prescribed::warnings, lists::warnings, records::warnings];
+
 /// All that looks risky, with values that change in time at their largest; but for how the scene starts.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let strongest = scene.at_its_strongest();
+    if scene.is_dry {
+        return OF_GRAINS.iter().flat_map(|topic| topic(&strongest)).collect();
+    }
     let all = TOPICS.iter().flat_map(|topic| topic(&strongest));
     let at_start = start::warnings(scene).into_iter().chain(closed::swings(scene));
     at_start.chain(all).collect()

@@ -18,7 +18,9 @@ pub struct Attachment {
 impl Attachment {
     /// The list of the `[[grains]]` section of this number.
     pub(super) fn of_grains(section: usize, bytes: Vec<u8>, unused: Vec<&'static str>) -> Self {
-        let (key, file_name) = (format!("grains[{section}].file"), format!("grains_{section}.csv"));
+        let ending = if super::vtk_file::is_vtk(&bytes) { "vtp" } else { "csv" };
+        let file_name = format!("grains_{section}.{ending}");
+        let key = format!("grains[{section}].file");
         Attachment { key, file_name, bytes: Arc::new(bytes), unused }
     }
 

@@ -7,10 +7,12 @@ use crate::scene::format::DomainSection;
 /// How far a length may be from a whole number of cells, in cells.
 const WHOLE: f64 = 1e-6;
 
-/// Cells along x, y, z; those of an image of lengths `si_image` where the section has neither `size` nor `cells`.
+/// Cells along x, y, z; those of an image of lengths `si_image` where the section has neither `size` nor `cells`. In a dry
+/// scene they take no memory.
 pub(super) fn cells(
     section: &DomainSection,
     si_image: Option<[f64; 3]>,
+    is_dry: bool,
 ) -> Result<[usize; 3], Trouble> {
     positive("domain.dx", section.dx, "m, the edge of a cell")?;
     sane("domain.dx", section.dx, 1e-12..=1e6, "m")?;
@@ -29,7 +31,8 @@ pub(super) fn cells(
             return Err(Trouble::new("domain", problem, "add `size = [x, y, z]` in m"));
         }
     };
-    check_memory(cells, if section.size.is_some() { "domain.size" } else { "domain.cells" })?;
+    let key = if section.size.is_some() { "domain.size" } else { "domain.cells" };
+    check_memory(cells, key, is_dry)?;
     Ok(cells)
 }
 
@@ -94,8 +97,8 @@ fn given_cells(given: [i64; 3]) -> Result<[usize; 3], Trouble> {
 /// Bytes that the oracle needs for a cell: two sets of populations and a slot for coverage.
 pub const BYTES_PER_CELL: u64 = 2 * 19 * 8 + 4;
 
-/// Errors if the domain cannot be numbered or cannot fit into this machine's memory.
-fn check_memory(cells: [usize; 3], key: &str) -> Result<(), Trouble> {
+/// Errors if the domain cannot be numbered, or the cells of its fluid cannot fit into this machine's memory.
+fn check_memory(cells: [usize; 3], key: &str, is_dry: bool) -> Result<(), Trouble> {
     let remedy = "use a larger `dx` or a smaller domain; mirror planes (`free_slip`) halve it";
     let count = cells.iter().try_fold(1_usize, |product, &n| product.checked_mul(n));
     let Some(count) = count.filter(|&count| count < u32::MAX as usize) else {
@@ -105,7 +108,7 @@ fn check_memory(cells: [usize; 3], key: &str) -> Result<(), Trouble> {
     };
     let need = count as u64 * BYTES_PER_CELL;
     match crate::machine::memory_bytes() {
-        Some(memory) if need > memory => {
+        Some(memory) if need > memory && !is_dry => {
             let problem = format!(
                 "{count} cells need {:.1} GiB; this machine has {:.1} GiB",
                 gib(need),

@@ -11,10 +11,10 @@ use psmrt_reference::lattice::{Vec3, viscosity};
 use super::contact::consistent;
 use super::contact_values::Bodies;
 use super::grains::GrainList;
-use super::hardness::Burden;
+use super::hardness::{Around, Burden};
 use super::listed::Listed;
 use super::maker::Maker;
-use super::{Trouble, balance, effort, mirrors};
+use super::{Trouble, balance, dry, effort, mirrors};
 use crate::in_time::Signal;
 use crate::scene::format::SceneFile;
 use crate::scene::format_free::{GravityForm, GravitySection, InternalFluidName};
@@ -85,7 +85,11 @@ pub(super) fn free_part(
     let mirrored = mirrors::centred(domain, list, &extent, units)?;
     let grains: Vec<Grain> = list.grains.iter().map(Listed::to_grain).collect();
     let g = gravity_in_time.map_or_else(Vec3::zeros, |signal| signal.largest(Vec3::norm));
-    let weight_asks = Burden::new(&grains, &g, domain, viscosity(tau)).stiffness();
+    let around = match file.fluid {
+        Some(_) => Around::Fluid { nu: viscosity(tau) },
+        None => Around::Nothing,
+    };
+    let weight_asks = Burden::new(&grains, &g, domain, around).stiffness();
     let of_lightest = list.free().filter(|listed| listed.mass() == lightest);
     let radius_of_lightest = of_lightest.map(|listed| listed.radius).fold(f64::INFINITY, f64::min);
     let bodies = Bodies { lightest, radius_of_lightest, weight_asks };
@@ -93,7 +97,7 @@ pub(super) fn free_part(
     let (setup, planes) = maker.make(&contact, file.lubrication.as_ref())?;
     effort::check(&maker, &contact, file.lubrication.as_ref())?;
     let coupling = file.coupling.clone().unwrap_or_default();
-    let settings = CouplingSettings {
+    let in_fluid = CouplingSettings {
         internal_fluid: match coupling.internal_fluid {
             InternalFluidName::Lagged => InternalFluid::Lagged,
             InternalFluidName::Kept => InternalFluid::Kept,
@@ -102,6 +106,7 @@ pub(super) fn free_part(
         average_loads: coupling.average_loads,
         ..CouplingSettings::default()
     };
+    let settings = if file.fluid.is_some() { in_fluid } else { dry::settings(gravity) };
     // All solids of a scene are grains, in the same order.
     let solids = (0..grains.len()).collect();
     let part = FreePart { setup, grains, solids, planes, settings };

@@ -179,7 +179,7 @@ fn radii(
     };
     // Before any work: sizes and numbers out of all proportion would take for ever.
     let radius = 0.5 * si_diameters[0] / place.units.si_dx;
-    check_size(&size_key(section, *at), radius, place.domain, place.units)?;
+    check_size(&size_key(section, *at), radius, place)?;
     let si_volume: f64 = place.si_lengths().iter().product();
     if let Amount::Count(count) = amount
         && count as f64 * sphere_volume(0.5 * si_diameters[0]) > DENSEST * si_volume

@@ -44,6 +44,9 @@ pub(super) fn foreign_keys(
     } else {
         absent(&at("file"), section.file.as_ref(), "grains of kind `csv`")?;
     }
+    if kind != GrainsKind::Csv {
+        absent(&at("columns"), section.columns.as_ref(), "grains of kind `csv`")?;
+    }
     if kind != GrainsKind::Array {
         let belongs = "grains of kind `array`";
         absent(&at("lattice"), section.lattice.as_ref(), belongs)?;
@@ -79,7 +82,8 @@ pub(super) fn balls(
             let remedy = "add `file = \"grains.csv\"`, relative to the scene file";
             let (key, because) = ((place.at)("file"), "grains of kind `csv` need it");
             let file = needed(&key, section.file.as_deref(), because, remedy)?;
-            let (bytes, balls) = grain_list::read(&key, &folder.join(file))?;
+            let (bytes, balls) =
+                grain_list::read(place.at, &folder.join(file), section.columns.as_ref())?;
             return Ok((balls, Some(bytes)));
         }
         GrainsKind::Array => arrays::balls(section, &place.at, place.domain, place.units)?,

@@ -33,8 +33,8 @@ impl GrainList {
     pub fn new(
         sections: &[GrainsSection],
         files: &mut Files,
-        domain: &Domain,
-        units: &Units,
+        (domain, units): (&Domain, &Units),
+        is_dry: bool,
     ) -> Result<Self, Trouble> {
         let mut list = GrainList::default();
         for (number, section) in sections.iter().enumerate() {
@@ -46,7 +46,7 @@ impl GrainList {
             let motion = motion(section, &at, units, files)?;
             let (velocity, angular_velocity) = (motion.0.at(0.0), motion.1.at(0.0));
             let fastest = (motion.0.largest(Vec3::norm), motion.1.largest(Vec3::norm));
-            let place = Site { at: &at, domain, units };
+            let place = Site { at: &at, domain, units, is_dry };
             let (balls, bytes) = grain_kinds::balls(section, files.folder, &place)?;
             let unused = unused(section.motion, &balls);
             files
@@ -64,7 +64,7 @@ impl GrainList {
             }
             for ball in balls {
                 let on_line = |trouble: Trouble| trouble.on_line(ball.line);
-                let density = density(section, &at, &ball, units).map_err(on_line)?;
+                let density = density(section, &ball, &place).map_err(on_line)?;
                 let centre = Units::to_lattice(ball.si_centre, units.si_dx);
                 let radius = 0.5 * ball.si_diameter / units.si_dx;
                 let (key, motion) = (place_key(section, &at), section.motion);
@@ -72,7 +72,7 @@ impl GrainList {
                 let (velocity, angular_velocity) =
                     (own.0.unwrap_or(velocity), own.1.unwrap_or(angular_velocity));
                 let fastest = (own.0.unwrap_or(fastest.0), own.1.unwrap_or(fastest.1));
-                check_size(&size_key(section, &at), radius, domain, units).map_err(on_line)?;
+                check_size(&size_key(section, &at), radius, &place).map_err(on_line)?;
                 check_speed(&at("spin"), &fastest.0, &fastest.1, radius, units).map_err(on_line)?;
                 neighbours::inside(&key, domain, &centre, radius, units).map_err(on_line)?;
                 let line = ball.line;
@@ -199,13 +199,8 @@ fn only_at_start(key: &str, value: Option<&VectorInTime>) -> Result<(), Trouble>
 }
 
 /// Density of a grain over that of the fluid, if it is free; else 1.
-fn density(
-    section: &GrainsSection,
-    at: &impl Fn(&str) -> String,
-    ball: &Ball,
-    units: &Units,
-) -> Result<f64, Trouble> {
-    let key = at("density");
+fn density(section: &GrainsSection, ball: &Ball, place: &Site<'_>) -> Result<f64, Trouble> {
+    let key = (place.at)("density");
     if section.motion != MotionKind::Free {
         absent(&key, section.density.as_ref(), "`motion = \"free\"`")?;
         return Ok(1.0);
@@ -218,15 +213,20 @@ fn density(
     let si_density =
         needed(&key, section.density.or(ball.si_density), "a free grain needs it", remedy)?;
     positive(&key, si_density, "kg/m3, quartz has 2650")?;
-    let ratio = si_density / units.si_density;
+    let ratio = si_density / place.units.si_density;
     if DENSITY_RATIOS.contains(&ratio) {
         return Ok(ratio);
     }
-    let problem = format!(
-        "it is {ratio:.3e} times the density of the fluid; {} to {} times are allowed",
-        DENSITY_RATIOS.start(),
-        DENSITY_RATIOS.end()
-    );
+    let (low, high) = (DENSITY_RATIOS.start(), DENSITY_RATIOS.end());
+    let problem = match place.is_dry {
+        false => format!(
+            "it is {ratio:.3e} times the density of the fluid; {low} to {high} times are allowed"
+        ),
+        true => {
+            let [low, high] = [low, high].map(|ratio| ratio * place.units.si_density);
+            format!("{low} to {high} kg/m3 are allowed")
+        }
+    };
     Err(Trouble::new(key, problem, "densities are in kg/m3: water has 1000, quartz 2650"))
 }
 

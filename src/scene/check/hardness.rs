@@ -79,12 +79,27 @@ pub(crate) struct Overlaps {
     pub in_impact: f64,
 }
 
+/// What is around the grains: it carries a part of their weight, and brakes their fall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Around {
+    /// Fluid of density 1.
+    Fluid {
+        /// Its kinematic viscosity.
+        nu: f64,
+    },
+    /// Nothing.
+    Nothing,
+}
+
 impl Burden {
-    /// What these grains, of which the free ones weigh, do under an acceleration `g` in fluid of kinematic
-    /// viscosity `nu`.
-    pub fn new(grains: &[Grain], g: &Vec3, domain: &Domain, nu: f64) -> Self {
+    /// What these grains, of which the free ones weigh, do under an acceleration `g`.
+    pub fn new(grains: &[Grain], g: &Vec3, domain: &Domain, around: Around) -> Self {
         let free = || grains.iter().filter(|grain| !grain.held);
-        let weight = |grain: &Grain| (grain.mass - sphere_volume(grain.radius)).abs() * g.norm();
+        let carried = |grain: &Grain| match around {
+            Around::Fluid { .. } => sphere_volume(grain.radius),
+            Around::Nothing => 0.0,
+        };
+        let weight = |grain: &Grain| (grain.mass - carried(grain)).abs() * g.norm();
         let largest = free().map(|grain| 2.0 * grain.radius).fold(0.0, f64::max);
         let smallest = grains.iter().map(|grain| 2.0 * grain.radius).fold(f64::INFINITY, f64::min);
         if g.norm() == 0.0 || largest == 0.0 {
@@ -99,9 +114,16 @@ impl Burden {
             .filter(|&axis| has_held || !domain.is_periodic(axis))
             .map(|axis| total * (g[axis].abs() / g.norm()) * cells[axis] / volume)
             .fold(0.0, f64::max);
-        let height = fall(domain, g);
+        let height = match around {
+            Around::Fluid { .. } => fall(domain, g),
+            // What falls for ever meets nothing but what falls with it.
+            Around::Nothing => Some(fall(domain, g)).filter(|h| h.is_finite()).unwrap_or(0.0),
+        };
         let speed = |grain: &Grain| {
-            let steady = settling_speed(weight(grain), grain.radius, nu);
+            let steady = match around {
+                Around::Fluid { nu } => settling_speed(weight(grain), grain.radius, nu),
+                Around::Nothing => f64::INFINITY,
+            };
             // v = √(2 (1 - m_f/m_s) g h)
             let dropped = (2.0 * weight(grain) / grain.mass * height).sqrt();
             steady.min(dropped)

@@ -2,6 +2,7 @@
 
 use super::list_text::{Fault, cells, is_number};
 use crate::quote::quoted;
+use crate::scene::format_lists::DelimiterName;
 
 /// The first line of a list of grains; the last column may be absent.
 pub const COLUMNS: [&str; 5] = ["x (m)", "y (m)", "z (m)", "diameter (m)", "density (kg/m3)"];
@@ -30,13 +31,55 @@ pub(super) enum ListColumn {
     Spin(usize),
 }
 
+impl ListColumn {
+    /// Its own name and unit.
+    pub fn title(self) -> &'static str {
+        match self {
+            ListColumn::Place(axis) => COLUMNS[axis],
+            ListColumn::Diameter => COLUMNS[3],
+            ListColumn::Radius => "radius (m)",
+            ListColumn::Density => COLUMNS[4],
+            ListColumn::Velocity(axis) => MOTION_COLUMNS[axis],
+            ListColumn::Spin(axis) => MOTION_COLUMNS[3 + axis],
+        }
+    }
+}
+
+/// A column that is read.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct ReadColumn {
+    pub what: ListColumn,
+    /// How the file calls it.
+    pub name: String,
+    /// The unit of its numbers in SI.
+    pub si_unit: f64,
+}
+
+/// Where a line has what; `None` for a column that is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Layout {
+    pub columns: Vec<Option<ReadColumn>>,
+    pub delimiter: DelimiterName,
+}
+
+impl Layout {
+    /// That of a list of our own, by its first line.
+    pub fn own(line: &str) -> Result<Self, Fault> {
+        let read = |what: ListColumn| {
+            Some(ReadColumn { what, name: what.title().to_owned(), si_unit: 1.0 })
+        };
+        let columns = columns(line)?.into_iter().map(read).collect();
+        Ok(Layout { columns, delimiter: DelimiterName::Comma })
+    }
+}
+
 /// The first line as it should be.
 pub(super) fn wanted() -> String {
     COLUMNS[..4].join(",")
 }
 
 /// The columns that a first line names, in any order.
-pub(super) fn columns(line: &str) -> Result<Vec<ListColumn>, Fault> {
+fn columns(line: &str) -> Result<Vec<ListColumn>, Fault> {
     let names = cells(line);
     separators(line, names.len())?;
     if names.iter().all(|name| is_number(name)) {
@@ -103,7 +146,8 @@ fn separators(line: &str, commas: usize) -> Result<(), Fault> {
         return Ok(());
     };
     let remedy = format!(
-        "separate them by commas, and write decimals with points (0.5, not 0,5): {command}"
+        "separate them by commas, and write decimals with points (0.5, not 0,5): {command}; or say in the scene what \
+         separates them: `columns.delimiter`"
     );
     Err((format!("its columns are separated by {name}"), remedy))
 }
@@ -134,7 +178,11 @@ fn column(number: usize, cell: &str) -> Result<ListColumn, Fault> {
         }
         _ => {
             let problem = format!("there is a column too many, {}, column {at}", quoted(cell));
-            let remedy = format!("keep {} and perhaps ,{}", wanted(), COLUMNS[4]);
+            let remedy = format!(
+                "keep {} and perhaps ,{}, or say in the scene which column is what: `columns`",
+                wanted(),
+                COLUMNS[4]
+            );
             return Err((problem, remedy));
         }
     };

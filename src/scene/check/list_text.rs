@@ -1,5 +1,7 @@
 //! The text of a list of grains: its encoding, its lines and their cells, as other programs write them.
 
+use crate::scene::format_lists::DelimiterName;
+
 /// What is wrong, and what to do.
 pub(super) type Fault = (String, String);
 
@@ -58,12 +60,25 @@ pub(super) fn numbered_lines(text: &str) -> impl Iterator<Item = (usize, &str)> 
 /// The cells of a line: separated by commas outside of quotation marks, which are taken off, as are
 /// blanks around them.
 pub(super) fn cells(line: &str) -> Vec<&str> {
+    cells_between(line, DelimiterName::Comma)
+}
+
+/// The same between other signs. Blanks separate however many there are.
+pub(super) fn cells_between(line: &str, delimiter: DelimiterName) -> Vec<&str> {
     let mut quoted = false;
     let separator = |c: char| {
         quoted ^= c == '"';
-        c == ',' && !quoted
+        let separates = match delimiter {
+            DelimiterName::Comma => c == ',',
+            DelimiterName::Semicolon => c == ';',
+            DelimiterName::Tab => c == '\t',
+            DelimiterName::Blanks => c.is_whitespace(),
+        };
+        separates && !quoted
     };
-    line.split(separator).map(|cell| cell.trim().trim_matches('"').trim()).collect()
+    let cells = line.split(separator);
+    let cells = cells.filter(|cell| delimiter != DelimiterName::Blanks || !cell.is_empty());
+    cells.map(|cell| cell.trim().trim_matches('"').trim()).collect()
 }
 
 /// Whether a cell is a number.

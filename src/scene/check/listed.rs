@@ -40,6 +40,8 @@ pub(super) struct Site<'a> {
     pub at: &'a dyn Fn(&str) -> String,
     pub domain: &'a Domain,
     pub units: &'a Units,
+    /// Whether there is no fluid, whose cells would have to resolve the grains.
+    pub is_dry: bool,
 }
 
 impl Site<'_> {
@@ -83,16 +85,15 @@ impl Listed {
 pub(super) fn check_size(
     key: &str,
     radius: f64,
-    domain: &Domain,
-    units: &Units,
+    &Site { domain, units, is_dry, .. }: &Site<'_>,
 ) -> Result<(), Trouble> {
     let lengths = domain.cells().map(|cells| cells as f64);
     let largest = 4.0 * Vec3::from(lengths).norm();
     if 2.0 * radius > largest {
         let [x, y, z] = lengths.map(|length| length * units.si_dx);
         let problem = format!(
-            "a grain of {:.4e} m is far larger than the domain ({x:.4e} x {y:.4e} x {z:.4e} m): no fluid is \
-             left, wherever its centre lies",
+            "a grain of {:.4e} m is far larger than the domain ({x:.4e} x {y:.4e} x {z:.4e} m): nothing is \
+             left of it, wherever the centre lies",
             2.0 * radius * units.si_dx
         );
         let remedy = format!(
@@ -102,7 +103,7 @@ pub(super) fn check_size(
         );
         return Err(Trouble::new(key, problem, remedy));
     }
-    if 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
+    if is_dry || 2.0 * radius >= MIN_CELLS_PER_DIAMETER {
         return Ok(());
     }
     let problem = format!(

@@ -11,6 +11,7 @@ mod collision;
 pub mod contact;
 pub mod contact_values;
 pub mod domain;
+mod dry;
 mod effort;
 mod faces;
 mod foreign_lists;
@@ -29,6 +30,7 @@ mod list_text;
 mod listed;
 mod lubrication;
 mod maker;
+mod mapped_columns;
 mod mirrors;
 pub(crate) mod neighbours;
 pub(crate) mod numbers;
@@ -41,6 +43,8 @@ mod solid;
 pub mod stop;
 mod time;
 mod voxels;
+mod vtk_file;
+mod vtk_list;
 
 use std::path::Path;
 
@@ -49,7 +53,7 @@ use psmrt_reference::domain::Domain;
 use psmrt_reference::lattice::Vec3;
 use psmrt_reference::setup::{Setup, SetupError};
 
-use super::format::SceneFile;
+use super::format::{FluidSection, SceneFile};
 use super::format_run::{EngineSection, ExactName};
 use super::format_time::VectorInTime;
 use super::{EngineKind, Precision, Scene, Trouble};
@@ -72,14 +76,23 @@ pub const MAX_SPEED: f64 = 0.2;
 pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     let images = voxels::images(&file.grains, folder)?;
     let si_image = images.first().map(ListedImage::si_size);
-    let cells = domain::cells(&file.domain, si_image)?;
-    positive("fluid.density", file.fluid.density, "kg/m3, for example 1000")?;
-    sane("fluid.density", file.fluid.density, 1e-6..=1e9, "kg/m3")?;
-    let key = "fluid.kinematic_viscosity";
-    positive(key, file.fluid.kinematic_viscosity, "m2/s, water has 1e-6")?;
-    sane(key, file.fluid.kinematic_viscosity, 1e-15..=1e15, "m2/s")?;
-    let (units, tau) = time::units_and_tau(&file.time, &file.fluid, file.domain.dx)?;
-    let collision = collision::collision(&file.collision, tau)?;
+    let is_dry = file.fluid.is_none();
+    if is_dry {
+        dry::check(file)?;
+    }
+    let cells = domain::cells(&file.domain, si_image, is_dry)?;
+    let (units, tau) = match &file.fluid {
+        Some(fluid) => {
+            check_fluid(fluid)?;
+            time::units_and_tau(&file.time, fluid, file.domain.dx)?
+        }
+        None => {
+            let units = dry::units(&file.time, file.domain.dx)?;
+            dry::slow_enough(file, &units)?;
+            (units, dry::NOMINAL_TAU)
+        }
+    };
+    let collision = collision::collision(&file.collision.clone().unwrap_or_default(), tau)?;
     let mut files = Files { folder, attachments: Vec::new() };
     let (faces, face_signals) = faces::faces(&file.faces, cells, &units, &mut files)?;
     let domain = Domain::new(cells, faces).map_err(|error| faces::trouble(&error))?;
@@ -92,7 +105,7 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     let body_force = body_force.transpose()?;
     setup.body_force = body_force.as_ref().map(|signal| signal.at(0.0));
     let initial = initial::initial(file.initial.as_ref(), &setup.domain, &units, &mut files)?;
-    let mut list = GrainList::new(&file.grains, &mut files, &setup.domain, &units)?;
+    let mut list = GrainList::new(&file.grains, &mut files, (&setup.domain, &units), is_dry)?;
     placed_images::add(&images, &mut list, &mut files, (&setup.domain, &units))?;
     let moving_bodies = bodies::add(&file.grains, &mut list, &mut files, (&setup.domain, &units))?;
     apart::check(&list, &setup.domain)?;
@@ -101,6 +114,9 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
     });
     let gravity = gravity.transpose()?;
     let free = free::free_part(file, &mut list, gravity.as_ref(), &setup.domain, tau, &units)?;
+    if is_dry {
+        dry::has_free(free.is_some())?;
+    }
     let gravity_on_fluid = free.as_ref().and_then(|part| gravity_on_fluid(part, &setup.domain));
     if let (Some(part), Some(gravity)) = (gravity_on_fluid, &gravity) {
         setup.body_force =
@@ -146,10 +162,12 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         checkpoint: checkpoint::interval(file.checkpoint.as_ref())?,
         keeps_last_state: file.checkpoint.as_ref().is_none_or(|s| s.at_end != Some(false)),
         setup,
+        is_dry,
         free,
         moving_bodies,
         drives,
-        operator_is_chosen: file.solid.as_ref().is_none_or(|section| section.operator.is_none()),
+        operator_is_chosen: !is_dry
+            && file.solid.as_ref().is_none_or(|section| section.operator.is_none()),
         initial,
         records,
         stop,
@@ -158,6 +176,15 @@ pub fn scene(file: &SceneFile, folder: &Path) -> Result<Scene, Trouble> {
         precision: precision(file.engine.as_ref())?,
         adapter: file.engine.as_ref().and_then(|section| section.adapter.clone()),
     })
+}
+
+/// Errors unless density and viscosity are those of a fluid.
+fn check_fluid(fluid: &FluidSection) -> Result<(), Trouble> {
+    positive("fluid.density", fluid.density, "kg/m3, for example 1000")?;
+    sane("fluid.density", fluid.density, 1e-6..=1e9, "kg/m3")?;
+    let key = "fluid.kinematic_viscosity";
+    positive(key, fluid.kinematic_viscosity, "m2/s, water has 1e-6")?;
+    sane(key, fluid.kinematic_viscosity, 1e-15..=1e15, "m2/s")
 }
 
 /// The precision that is asked for, if the engine has it.

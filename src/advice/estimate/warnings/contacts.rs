@@ -17,7 +17,7 @@ const MANY: u32 = 100;
 pub(super) fn warnings(scene: &Scene) -> Vec<Warning> {
     let Some(part) = &scene.free else { return Vec::new() };
     let mut warnings: Vec<Warning> = softness(scene, part).into_iter().collect();
-    if let Some(count) = part.substeps().ok().filter(|&count| count > MANY) {
+    if let Some(count) = part.substeps().ok().filter(|&count| count > MANY && !scene.is_dry) {
         let reason = format!(
             "the grains make {count} sub-steps in a time step: they may cost more than the fluid"
         );
