@@ -8,6 +8,9 @@ use psmrt_reference::grains::law::{ContactLaw, Friction, LawError, Rolling};
 use psmrt_reference::grains::laws::Law;
 use psmrt_reference::grains::motion::Substeps;
 
+use super::contact_values::{
+    Bodies, DEFAULT_FRICTION, DEFAULT_RESTITUTION, HUGE, LONGEST_DURATION, capped, trouble,
+};
 use super::numbers::{absent, coefficient, positive};
 use super::{Trouble, hertz};
 use crate::scene::format_free::ContactSection;
@@ -24,22 +27,9 @@ pub(super) const MOST_SUBSTEPS: u32 = 2500;
 /// (golden/stability/contact.csv).
 pub const DEFAULT_DURATION: f64 = 10.0;
 
-/// Longest contact duration that is accepted, time steps: longer ones hold nothing.
-pub(super) const LONGEST_DURATION: f64 = 1e6;
-
 /// Tangential over normal stiffness that is accepted: far beyond any material on both sides (2/3 to 1 for
 /// elastic spheres, by Mindlin), and short of what round-off makes of it.
 const TANGENTIAL_RATIOS: std::ops::RangeInclusive<f64> = 0.001..=10.0;
-
-/// Restitution where a scene says nothing. Grains that settle at Stokes numbers below 10 do not
-/// rebound in a liquid, whatever they do in vacuum (Gondret, Lance & Petit, Phys. Fluids 14, 643
-/// (2002)): the fluid takes the energy. What the dashpot takes serves resting contacts, which are calm
-/// after a few durations.
-pub const DEFAULT_RESTITUTION: f64 = 0.5;
-
-/// Friction where a scene says nothing: tan 27°, in the middle of what Rowe, Proc. R. Soc. A 269, 500
-/// (1962), measured for quartz grains under water (22° to 31°).
-pub const DEFAULT_FRICTION: f64 = 0.5;
 
 /// The laws of a scene, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,25 +39,6 @@ pub(super) struct Laws {
     /// Between a grain and a face: the same stiffness, and where a restitution is wanted the damping
     /// that gives it on a wall.
     pub walls: Law,
-}
-
-/// Beyond all stiffness and damping that sub-steps could resolve, and far from overflow.
-const HUGE: f64 = 1e200;
-
-/// A value that does not overflow in what is made of it: `effort.rs` refuses it then.
-pub(super) fn capped(value: f64) -> f64 {
-    if value > HUGE { HUGE } else { value }
-}
-
-/// What the laws are made for, lattice units.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bodies {
-    /// Mass of the lightest free grain.
-    pub lightest: f64,
-    /// Its radius.
-    pub radius_of_lightest: f64,
-    /// Stiffness that weight and impacts ask for; 0 without gravity.
-    pub weight_asks: f64,
 }
 
 /// Errors unless the keys of the section go together.
@@ -218,23 +189,4 @@ fn one_of(first: bool, second: bool, name: &str, other: &str) -> Result<(), Trou
     }
     let problem = format!("the section has both `{name}` and `{other}`, which set the same thing");
     Err(Trouble::new(format!("contact.{other}"), problem, "give one of them"))
-}
-
-/// The key to blame for a law that cannot be used.
-pub(super) fn trouble(error: &LawError) -> Trouble {
-    let LawError::BadValue { key, allowed, .. } = error;
-    let (name, remedy) = match *key {
-        "Young's modulus" => ("youngs_modulus", "give a modulus in Pa above 0"),
-        "Poisson's ratio" => ("poisson_ratio", "0.3 is usual"),
-        "restitution" => ("restitution", "0.5 is usual for grains in water"),
-        "contact duration" => ("duration", "give a time in s, some time steps long"),
-        "stiffness" => ("stiffness", "give a stiffness in N/m above 0, or `duration`"),
-        "damping" => ("damping", "give a damping in N s/m, or `restitution`"),
-        "friction coefficient" => ("friction", "0.5 is usual for sand"),
-        "tangential stiffness" => ("tangential_ratio", "2/7 = 0.2857 is usual"),
-        "tangential damping" => ("tangential_ratio", "2/7 = 0.2857 is usual"),
-        "rolling coefficient" => ("rolling_resistance", "0.1 is usual for rounded sand"),
-        _ => return Trouble::new("contact", error.to_string(), "change the value"),
-    };
-    Trouble::new(format!("contact.{name}"), format!("it {allowed}"), remedy)
 }

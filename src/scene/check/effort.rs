@@ -99,7 +99,7 @@ impl Keys {
             0 => setup.law.linear()?.stiffness * units.si_stiffness(),
             1 => setup.law.linear()?.damping * units.si_damping(),
             2 => setup.law.linear()?.duration(pair) * units.si_dt,
-            3 => super::contact::DEFAULT_RESTITUTION,
+            3 => super::contact_values::DEFAULT_RESTITUTION,
             4 => 2.0 / 7.0,
             _ => setup.lubrication?.smallest_gap * units.si_dx,
         })

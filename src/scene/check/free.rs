@@ -8,7 +8,8 @@ use psmrt_reference::grains::plane::Plane;
 use psmrt_reference::grains::setup::{GrainError, GrainSetup};
 use psmrt_reference::lattice::{Vec3, viscosity};
 
-use super::contact::{Bodies, consistent};
+use super::contact::consistent;
+use super::contact_values::Bodies;
 use super::grains::GrainList;
 use super::hardness::Burden;
 use super::listed::Listed;
@@ -139,7 +140,7 @@ fn form_of(section: &GravitySection) -> Gravity {
 fn trouble(error: &GrainError, list: &GrainList) -> Trouble {
     let change = "change the value";
     match error {
-        GrainError::Law(error) => super::contact::trouble(error),
+        GrainError::Law(error) => super::contact_values::trouble(error),
         GrainError::BoxTooShort { .. } => Trouble::new("domain", error.to_string(), change),
         GrainError::BadGrain { grain, .. } => {
             let problem = error.to_string();

@@ -10,7 +10,7 @@ use psmrt_reference::domain::Face;
 use psmrt_reference::grains::grain::{Grain, sphere_volume};
 
 use super::Trouble;
-use super::contact::DEFAULT_FRICTION;
+use super::contact_values::DEFAULT_FRICTION;
 use super::listed::{Ball, Site, check_size, size_key};
 use super::numbers::{absent, coefficient, count, needed, positive};
 use crate::packing::{Amount, FOLLOWS, Grading, Sizes};

@@ -4,7 +4,7 @@ use psmrt_reference::grains::hertz::{Elastic, HertzLaw, RollingShare};
 use psmrt_reference::grains::law::LawError;
 
 use super::Trouble;
-use super::contact::{
+use super::contact_values::{
     Bodies, DEFAULT_FRICTION, DEFAULT_RESTITUTION, LONGEST_DURATION, capped, trouble,
 };
 use super::numbers::{absent, positive};

@@ -7,7 +7,8 @@ use psmrt_reference::grains::setup::{GrainSetup, PeriodicBox};
 use psmrt_reference::lattice::Vec3;
 
 use super::Trouble;
-use super::contact::{Bodies, Laws, laws, mirror, substeps};
+use super::contact::{Laws, laws, mirror, substeps};
+use super::contact_values::Bodies;
 use crate::scene::format_free::{ContactSection, LubricationSection};
 use crate::units::Units;
 

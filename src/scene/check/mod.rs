@@ -7,6 +7,7 @@ mod balance;
 pub mod checkpoint;
 mod collision;
 pub mod contact;
+pub mod contact_values;
 pub mod domain;
 mod effort;
 mod faces;
