@@ -61,7 +61,7 @@ pub trait Watcher {
     fn watch(&mut self, steps: u64, left: Option<f64>) -> bool;
 }
 
-/// Steps between two calls of the watcher, at most: about so many cell updates, or steps of a grain.
+/// Steps between two calls of the watcher, at most: about so many cell updates, or sub-steps of a grain.
 const BATCH_UPDATES: u64 = 200_000;
 
 /// Runs a scene to its end, with its results in `folder`: from the start, or from where the engine
@@ -115,6 +115,8 @@ struct Run<'a> {
     recorders: Vec<Recorder>,
     steady: Option<steady::Watch>,
     lookout: Lookout,
+    /// Steps between two calls of the watcher, at most.
+    batch: u64,
 }
 
 impl<'a> Run<'a> {
@@ -143,7 +145,13 @@ impl<'a> Run<'a> {
         };
         let steady = steady::Watch::begin(scene, resumed.and_then(|p| p.steady.as_ref()));
         let lookout = Lookout::new(scene, engine.steps(), &engine.solids());
-        Ok(Run { scene, folder, recorders, steady, lookout })
+        // Without fluid it is the sub-steps of the grains that take the time.
+        let substeps = match &scene.free {
+            Some(part) if scene.is_dry => part.substeps().map_or(1, u64::from),
+            _ => 1,
+        };
+        let batch = (BATCH_UPDATES / (scene.updates_per_step() * substeps).max(1)).max(1);
+        Ok(Run { scene, folder, recorders, steady, lookout, batch })
     }
 
     /// Steps to the next event. Errors where the state breaks or a prescribed sphere's way ends: then
@@ -244,8 +252,7 @@ impl<'a> Run<'a> {
             // The loads of each step are summed.
             return now + 1;
         }
-        let batch = (BATCH_UPDATES / self.scene.updates_per_step()).max(1);
-        records.fold(checkpoint.min(now + batch).min(self.scene.stop.steps), u64::min)
+        records.fold(checkpoint.min(now + self.batch).min(self.scene.stop.steps), u64::min)
     }
 
     /// Saves the state. Errors if it is broken: then the last one that was not is kept.

@@ -18,6 +18,13 @@ pub fn water(cells: [usize; 3], dx: f64, more: &str) -> String {
     )
 }
 
+/// A domain of `cells` of 1 mm and steps of 0.1 ms, without fluid.
+pub fn dry(cells: [usize; 3], more: &str) -> String {
+    format!(
+        "[domain]\ncells = {cells:?}\ndx = 1e-3\n[time]\ndt = 1e-4\n{more}[stop]\nsteps = 100\n"
+    )
+}
+
 /// Walls at the bottom and the top.
 pub const FLOOR_AND_LID: &str = "[faces]\nz_low.kind = \"wall\"\nz_high.kind = \"wall\"\n";
 

@@ -50,6 +50,7 @@ mod cpu_engine;
 mod diagnosis;
 mod drive;
 mod dry;
+mod dry_refused;
 mod exact_text;
 mod extremes;
 mod going_on;
