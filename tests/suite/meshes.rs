@@ -273,5 +273,6 @@ fn parts_that_overlap_or_face_inward_are_told_by_the_cells_that_they_fill() {
     let wrong =
         solid_shares(&placed(&apart, [3.5, 5.5, 5.0], UnitQuaternion::identity()), [20, 11, 10])
             .unwrap_err();
-    assert!(wrong.share < -0.99, "{wrong}");
+    // Its edges lie in the middle of cells: an eighth of one at the least.
+    assert!(wrong.share < -0.12, "{wrong}");
 }
