@@ -1,5 +1,7 @@
 //! A cylinder from an STL file across a stream.
 
+use psmrt_report::{Axis, Figure, Series};
+
 use crate::cases::{Bench, CaseError, Claim, Golden};
 
 /// Diameter, m, and viscosity, m2/s.
@@ -81,4 +83,26 @@ pub(super) fn claims(golden: &Golden) -> Result<Vec<Claim>, CaseError> {
         why: "the same 256 sides, in the file to single precision, and runs that the same rule ends",
     });
     Ok(claims)
+}
+
+/// The drag of the cylinder, with what others computed.
+pub(super) fn figure(golden: &Golden) -> Result<Figure, CaseError> {
+    let (study, known) = (golden.table("cylinder.csv")?, golden.table("cylinder_literature.csv")?);
+    let mut figure = Figure::new(
+        "Drag of a cylinder across a stream",
+        Axis::linear("Re = U D/nu").range(15.0, 45.0),
+        Axis::linear("drag coefficient").range(1.3, 2.3),
+    );
+    for source in known.values("source")? {
+        let own = known.with(&[("source", &source)])?;
+        let points = own.points("Re", "drag_coefficient")?;
+        figure = figure.with(Series::dashed(source, points));
+    }
+    for cells in study.with(&[("shape", "stl")])?.values("cells_per_diameter")? {
+        let own = study.with(&[("shape", "stl"), ("cells_per_diameter", &cells)])?;
+        let points = own.points("Re", "drag_coefficient")?;
+        figure =
+            figure.with(Series::points(format!("STL file, {cells} cells per diameter"), points));
+    }
+    Ok(figure.note("psmrt: sides where water slips 15 diameters away; the others: open water"))
 }

@@ -142,7 +142,7 @@ fn of_array(golden: &Golden) -> Result<Vec<Claim>, CaseError> {
 }
 
 fn draw(golden: &Golden, rows: &Table) -> Result<Vec<Figure>, CaseError> {
-    Ok(vec![of_bodies(golden, rows)?, array(golden)?])
+    Ok(vec![of_bodies(golden, rows)?, array(golden)?, cylinder::figure(golden)?])
 }
 
 /// Permeabilities of the three bodies on finer and finer grids.
