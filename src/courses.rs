@@ -67,6 +67,9 @@ impl Meeting {
     pub fn remedy(&self, scene: &Scene) -> String {
         let before = self.step.saturating_sub(1);
         let other = match self.obstacle {
+            Obstacle::Face { .. } if scene.is_dry => {
+                "let it move another way, or make that face periodic"
+            }
             Obstacle::Face { .. } => {
                 "let it move another way, or make that face periodic or open (`pressure`, `free_outflow`)"
             }

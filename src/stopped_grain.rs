@@ -106,7 +106,15 @@ impl Situation<'_> {
         let at_rest = overlaps.in_bed.max(overlaps.one_on_one);
         let speed = grain.velocity.norm();
         let arrives = sunk.approach.max(0.0);
-        let stopping = law.overlap_of_impact(arrives, sunk.radius, mass);
+        // R* of both: a plane has no curvature.
+        let radius = match sunk.obstacle {
+            SunkInto::Plane(_) => grain.radius,
+            SunkInto::Grain(other) => {
+                let other = self.system.grains()[other].radius;
+                grain.radius * other / (grain.radius + other)
+            }
+        };
+        let stopping = law.overlap_of_impact(arrives, radius, mass);
         if let Some(words) = self.overlap_at_start(sunk.grain, speed) {
             return (failure, words.0, words.1);
         }
@@ -148,7 +156,7 @@ impl Situation<'_> {
         } else {
             format!(
                 "contacts are too soft ({hardness}) for the {:.2e} N with which {} press on it",
-                law.at(sunk.overlap, sunk.radius, mass).stiffness * sunk.overlap * units.si_force(),
+                law.at(sunk.overlap, radius, mass).stiffness * sunk.overlap * units.si_force(),
                 if self.scene.is_dry { "other grains" } else { "fluid and other grains" }
             )
         };
@@ -215,7 +223,11 @@ impl Situation<'_> {
             at_start.overlap * units.si_dx,
             thrown * units.si_velocity()
         );
-        Some((cause, "move the grains apart at the start, or make contacts longer".to_owned()))
+        let softer = match setup.law {
+            Law::Linear(_) => "make contacts longer (`contact.duration`)",
+            Law::Hertz(_) => "take a smaller `contact.youngs_modulus`",
+        };
+        Some((cause, format!("move the grains apart at the start, or {softer}")))
     }
 
     fn burden(&self) -> Burden {

@@ -93,8 +93,8 @@ pub struct FluidSection {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeSection {
-    /// Time step, s. Without `fluid` the only one of these; contacts take as many sub-steps in it as they need, and no grain may
-    /// move by more than a fifth of `domain.dx` in it.
+    /// Time step, s. Without `fluid` the only one of these; contacts take as many sub-steps in it as they need. No velocity that the
+    /// scene gives may then be more than a fifth of `domain.dx` in it.
     pub dt: Option<f64>,
     /// Relaxation time in time steps, above 0.5: `dt = (tau - 0.5)/3 dx2/kinematic_viscosity`. Errors at grains grow
     /// with `tau - 0.5`, and the cost falls with it: Pareto-optimal runs with errors below 10 % have tau 0.55 to 0.8

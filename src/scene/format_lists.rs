@@ -34,7 +34,8 @@ pub struct ColumnsSection {
     pub spin_y: Option<String>,
     /// Name of the column with the angular velocity about z (rad/s).
     pub spin_z: Option<String>,
-    /// Metres in the file's unit of length, of places, diameters and radii: 1e-3 for mm; 1 where absent.
+    /// Metres in the file's unit of length, of places, diameters and radii: 1e-3 for mm; 1 where absent. A unit in the name of a column,
+    /// `X [mm]`, goes before it, and so for velocities and densities.
     pub lengths_in: Option<f64>,
     /// m/s in the file's unit of velocity: 1e-3 for mm/s; 1 where absent.
     pub velocities_in: Option<f64>,

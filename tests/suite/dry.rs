@@ -89,6 +89,45 @@ fn a_ball_bounces_to_its_height_times_the_square_of_its_restitution() {
 }
 
 #[test]
+fn grains_without_fluid_may_fall_by_many_cells_a_step_and_down_a_chute() {
+    // Cells are a unit of length: 1.9 m at up to 6 m/s in steps of 1 ms and cells of 1 mm are 6 cells a step.
+    let ball = free_sphere("[0.05, 0.05, 1.95]", "0.02", "2500.0");
+    let contact = "[contact]\nyoungs_modulus = 1e8\nrestitution = 0.9\n";
+    let text = dry([100, 100, 2000], &format!("{FLOOR_AND_LID}{GRAVITY}{contact}{ball}"))
+        .replace("dt = 1e-4", "dt = 1e-3");
+    let scene = scene(&text);
+    let mut engine = opened(&scene);
+    let fall = (2.0 * 1.94 / G).sqrt();
+    // Up again for half of the time of the fall: 1.5 times 0.6289 s.
+    engine.step(943).unwrap_or_else(|stop| panic!("{stop}"));
+    let found = grain(&engine, 0);
+    let speed = 0.9 * G * fall - 0.5 * G * fall;
+    let scale = scene.units.si_velocity();
+    // The contact takes some 3 ms of 0.9 s.
+    assert!(
+        (found.velocity.z * scale / speed - 1.0).abs() < 0.02,
+        "{} m/s, {speed} expected",
+        found.velocity.z * scale
+    );
+
+    // A chute whose axis along x repeats itself: contacts by default are as hard as for a fall of its height.
+    let ball = free_sphere("[5e-3, 5e-3, 45e-3]", "4e-3", "2500.0");
+    let stiffness = |gravity: &str| {
+        let text = dry(
+            [10, 10, 50],
+            &format!("{FLOOR_AND_LID}[gravity]\nacceleration = {gravity}\n{ball}"),
+        );
+        let scene = crate::scenes::scene(&text);
+        scene.free.unwrap().setup.law.linear().unwrap().stiffness
+    };
+    let ratio = stiffness("[1e-6, 0.0, -9.81]") / stiffness("[0.0, 0.0, -9.81]");
+    assert!(
+        (ratio - 1.0).abs() < 1e-3,
+        "a push along a periodic axis changes the stiffness {ratio} times"
+    );
+}
+
+#[test]
 fn a_ball_that_slides_comes_to_roll_at_five_sevenths_of_its_velocity_when_it_should() {
     let (radius, friction, stiffness) = (1e-3, 0.3, 1000.0);
     let mass = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * f64::powi(radius, 3);

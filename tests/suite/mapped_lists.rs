@@ -45,6 +45,11 @@ fn tables_of_other_programs_give_the_same_grains_by_the_names_of_their_columns()
             delimited(PLAIN, "blanks"),
             "\"my id\" z x y d\n\"1 a\" 2.5e-4 3e-4 2.5e-4 2e-4\n".to_owned(),
         ),
+        // Units that names say, each its own, go before the one of all names; there are two signs for micro.
+        (
+            "x = \"X [mm]\", y = \"Y (\u{b5}m)\", z = \"Z [\u{3bc}m]\", diameter = \"d\", lengths_in = 1e-4".to_owned(),
+            "X [mm],Y (\u{b5}m),Z [\u{3bc}m],d\n0.3,250,250,2\n".to_owned(),
+        ),
         // Names that are our own are as good as others.
         (
             "x = \"x (m)\", y = \"y (m)\", z = \"z (m)\", diameter = \"diameter (m)\"".to_owned(),
@@ -113,8 +118,8 @@ const WRONG: &[Row] = &[
     ("x = \"x\", y = \"y\", z = \"z\", diameter = \"d\", delimiter = \"semicolon\"", "x;y;z;d\n0,0003;0,00025;0,00025;0,0002\n", "file", "line 2: x = \"0,0003\"", "points: 0.0003"),
     ("x = \"x\", y = \"y\", z = \"z\", diameter = \"d\", delimiter = \"semicolon\"", "x;y;z;d\n;;;\n", "file", "only semicolons", "remove the line"),
     ("x = \"x\", y = \"x\", z = \"z\", diameter = \"d\"", "x,y,z,d\n1,2,3,4\n", "columns.y", "\"x\" is already x (m)", "a column once"),
-    ("x = \"X (mm)\", y = \"Y (mm)\", z = \"Z (mm)\", radius = \"R (mm)\"", "X (mm),Y (mm),Z (mm),R (mm)\n0.3,0.25,0.25,0.1\n", "columns.x", "\"X (mm)\" is in mm", "`lengths_in = 1e-3`"),
-    ("x = \"x\", y = \"y\", z = \"z\", radius = \"R [cm]\", lengths_in = 1e-3", "x,y,z,R [cm]\n0.3,0.25,0.25,0.1\n", "columns.radius", "is in cm", "`lengths_in = 1e-2`"),
+    ("x = \"x\", y = \"y\", z = \"z\", diameter = \"d\", velocity_x = \"u [ft/s]\", velocity_y = \"v\", velocity_z = \"w\"", "x,y,z,d,u [ft/s],v,w\n1,2,3,4,5,6,7\n", "columns.velocity_x", "a unit that is not known", "`velocities_in`"),
+    ("x = \"x\", y = \"y\", z = \"z\", diameter = \"d\", spin_x = \"p (rpm)\", spin_y = \"q\", spin_z = \"r\"", "x,y,z,d,p (rpm),q,r\n1,2,3,4,5,6,7\n", "columns.spin_x", "a unit that is not known", "angles in rad"),
     (PLAIN, "ITEM: TIMESTEP\n0\nITEM: ATOMS x y z radius\n3e-4 2.5e-4 2.5e-4 1e-4\n", "columns", "says itself", "remove `columns`"),
     (PLAIN, "#format x_y_z_r\n3e-4 2.5e-4 2.5e-4 1e-4\n", "columns", "says itself", "remove `columns`"),
     (PLAIN, "<?xml version=\"1.0\"?>\n<VTKFile/>\n", "columns", "says itself", "remove `columns`"),

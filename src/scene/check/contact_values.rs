@@ -42,7 +42,7 @@ pub(super) fn trouble(error: &LawError) -> Trouble {
     let (name, remedy) = match *key {
         "Young's modulus" => ("youngs_modulus", "give a modulus in Pa above 0"),
         "Poisson's ratio" => ("poisson_ratio", "0.3 is usual"),
-        "restitution" => ("restitution", "0.5 is usual for grains in water"),
+        "restitution" => ("restitution", "0.5 is usual for grains in water, 0.9 for dry glass"),
         "contact duration" => ("duration", "give a time in s, some time steps long"),
         "stiffness" => ("stiffness", "give a stiffness in N/m above 0, or `duration`"),
         "damping" => ("damping", "give a damping in N s/m, or `restitution`"),

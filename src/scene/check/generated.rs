@@ -105,6 +105,13 @@ pub(super) fn bed(section: &GrainsSection, place: &Site) -> Result<Vec<Ball>, Tr
     for ball in &mut balls {
         ball.si_centre[2] += floor;
     }
+    let tops = balls.iter().map(|ball| ball.si_centre[2] + 0.5 * ball.si_diameter);
+    let above = tops.fold(0.0, f64::max) - si_lengths[2];
+    if floor > 0.0 && above > 0.0 {
+        let problem = format!("the bed on it is {above:.4e} m higher than the domain");
+        let remedy = format!("at most {:.4e}, or a higher domain, or fewer grains", floor - above);
+        return Err(Trouble::new(at("floor"), problem, remedy));
+    }
     Ok(balls)
 }
 

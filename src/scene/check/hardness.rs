@@ -116,8 +116,7 @@ impl Burden {
             .fold(0.0, f64::max);
         let height = match around {
             Around::Fluid { .. } => fall(domain, g),
-            // What falls for ever meets nothing but what falls with it.
-            Around::Nothing => Some(fall(domain, g)).filter(|h| h.is_finite()).unwrap_or(0.0),
+            Around::Nothing => fall_without_drag(domain, g),
         };
         let speed = |grain: &Grain| {
             let steady = match around {
@@ -212,6 +211,13 @@ fn fall(domain: &Domain, g: &Vec3) -> f64 {
         false => domain.cells()[axis] as f64 * g[axis].abs() / g.norm(),
     };
     (0..3).filter(|&axis| g[axis] != 0.0).map(along).sum()
+}
+
+/// The same without drag: what falls for ever along a periodic axis meets nothing but what falls with it.
+fn fall_without_drag(domain: &Domain, g: &Vec3) -> f64 {
+    // v² = 2 Σ |g_i| L_i
+    let along = |axis: usize| domain.cells()[axis] as f64 * g[axis].abs() / g.norm();
+    (0..3).filter(|&axis| !domain.is_periodic(axis)).map(along).sum()
 }
 
 /// Speed of the steady fall of a sphere that weighs `weight` (less buoyancy) in still fluid of density 1.

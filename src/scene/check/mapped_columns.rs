@@ -7,9 +7,22 @@ use super::numbers::positive;
 use crate::quote::quoted;
 use crate::scene::format_lists::ColumnsSection;
 
-/// Units of length that a name may end with, and what they are in m.
-const LENGTHS: [(&str, f64); 6] =
-    [("m", 1.0), ("dm", 0.1), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6)];
+/// Units that a name may end with, and what they are in m, m/s, kg/m3 and rad/s. (There are two signs for micro.)
+const LENGTHS: [(&str, f64); 9] = [
+    ("m", 1.0),
+    ("dm", 0.1),
+    ("cm", 1e-2),
+    ("mm", 1e-3),
+    ("um", 1e-6),
+    ("\u{b5}m", 1e-6),
+    ("\u{3bc}m", 1e-6),
+    ("nm", 1e-9),
+    ("km", 1e3),
+];
+const SPEEDS: [(&str, f64); 4] = [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("um/s", 1e-6)];
+const DENSITIES: [(&str, f64); 5] =
+    [("kg/m3", 1.0), ("kg/m^3", 1.0), ("g/cm3", 1000.0), ("g/cm^3", 1000.0), ("g/cc", 1000.0)];
+const SPINS: [(&str, f64); 3] = [("rad/s", 1.0), ("1/s", 1.0), ("s^-1", 1.0)];
 
 /// Names of columns that a message shows.
 const SHOWN: usize = 12;
@@ -99,15 +112,10 @@ pub(super) fn layout(
             let problem = format!("{} is already {}", quoted(name), other.what.title());
             return Err(Trouble::new(at(key), problem, "name a column once"));
         }
-        let is_length =
-            matches!(what, ListColumn::Place(_) | ListColumn::Diameter | ListColumn::Radius);
-        if let Some((unit, value)) = unit_of(name).filter(|_| is_length)
-            && (si_unit / value - 1.0).abs() > 1e-9
-        {
-            let problem = format!("column {} is in {unit}, which is {value:e} m", quoted(name));
-            let remedy = format!("write `lengths_in = {value:e}`");
-            return Err(Trouble::new(at(key), problem, remedy));
-        }
+        // What a name says goes before what is said of all names.
+        let si_unit = unit_of(name, what)
+            .map_err(|(problem, remedy)| Trouble::new(at(key), problem, remedy))?
+            .unwrap_or(si_unit);
         columns[place] = Some(ReadColumn { what, name: name.to_owned(), si_unit });
     }
     Ok(Layout { columns, delimiter: section.delimiter })
@@ -133,8 +141,31 @@ fn absent_remedy(names: &[&str]) -> String {
     }
 }
 
-/// The unit of length that a name ends with, `X [mm]`, and what it is in m.
-fn unit_of(name: &str) -> Option<(&'static str, f64)> {
-    let (_, unit) = name.trim().trim_end_matches([')', ']']).rsplit_once(['(', '['])?;
-    LENGTHS.into_iter().find(|(known, _)| *known == unit.trim())
+/// The unit that a name ends with, `X [mm]`, in SI, if it names one. Errors if that is none of the quantity's; of a length any
+/// other word may stand there.
+fn unit_of(name: &str, what: ListColumn) -> Result<Option<f64>, (String, String)> {
+    let Some((_, unit)) = name.trim().trim_end_matches([')', ']']).rsplit_once(['(', '[']) else {
+        return Ok(None);
+    };
+    let (known, key): (&[(&str, f64)], &str) = match what {
+        ListColumn::Place(_) | ListColumn::Diameter | ListColumn::Radius => {
+            (&LENGTHS, "lengths_in")
+        }
+        ListColumn::Velocity(_) => (&SPEEDS, "velocities_in"),
+        ListColumn::Density => (&DENSITIES, "densities_in"),
+        ListColumn::Spin(_) => (&SPINS, ""),
+    };
+    if let Some((_, si_unit)) = known.iter().find(|(word, _)| *word == unit.trim()) {
+        return Ok(Some(*si_unit));
+    }
+    if key == "lengths_in" {
+        return Ok(None);
+    }
+    let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+    let problem = format!("column {} is in a unit that is not known", quoted(name));
+    let more = match key {
+        "" => "rename the column and give angles in rad".to_owned(),
+        key => format!("rename the column and give the unit by `{key}`"),
+    };
+    Err((problem, format!("known are {}; else {more}", words.join(", "))))
 }

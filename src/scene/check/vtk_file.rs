@@ -76,7 +76,7 @@ fn parted(bytes: &[u8]) -> Result<(Cow<'_, str>, Option<Appended<'_>>), Fault> {
     let Some((tag, data)) = start else {
         return Err(("its appended data are cut off".to_owned(), "save it anew".to_owned()));
     };
-    let is_raw = tag.windows(5).any(|window| window == b"\"raw\"");
+    let is_raw = tag.windows(5).any(|window| window == b"\"raw\"" || window == b"'raw'");
     Ok((Cow::Owned(format!("{head}</VTKFile>")), Some(Appended { is_raw, data })))
 }
 
@@ -129,8 +129,11 @@ impl<'a> File<'a> {
             let arrays = inside.flat_map(|node| node.children());
             arrays.filter(|node| node.has_tag_name("DataArray")).collect::<Vec<_>>()
         };
-        let said = piece.attribute("NumberOfPoints").and_then(|text| text.trim().parse().ok());
-        let count: usize = said.unwrap_or(0);
+        let said = piece.attribute("NumberOfPoints").unwrap_or("");
+        let Ok(count) = said.trim().parse::<usize>() else {
+            let problem = format!("a piece says that it has {} points", quoted(said));
+            return Err((problem, "save it anew: it was changed by hand".to_owned()));
+        };
         let of = |array: Node<'_, '_>, name: &str, components: usize| -> Result<Vec<f64>, Fault> {
             let values = self.values(array, name)?;
             if count.checked_mul(components) == Some(values.len()) {
@@ -153,11 +156,17 @@ impl<'a> File<'a> {
         };
         let flat = of(places, "Points", 3)?;
         points.places.extend(flat.chunks_exact(3).map(|xyz| [xyz[0], xyz[1], xyz[2]]));
+        let mut seen = Vec::new();
         for array in arrays_of("PointData") {
             let name = array.attribute("Name").unwrap_or("");
             if !wanted(name) {
                 continue;
             }
+            if seen.contains(&name) {
+                let problem = format!("a piece has array {} twice", quoted(name));
+                return Err((problem, "save it anew: it was changed by hand".to_owned()));
+            }
+            seen.push(name);
             let components = array.attribute("NumberOfComponents").unwrap_or("1");
             let components = components.trim().parse().unwrap_or(1);
             let values = of(array, name, components)?;
@@ -174,7 +183,9 @@ impl<'a> File<'a> {
     /// The values of an array, however they are stored.
     fn values(&self, array: Node<'_, '_>, name: &str) -> Result<Vec<f64>, Fault> {
         let format = array.attribute("format").unwrap_or("ascii");
-        let text = array.text().unwrap_or("");
+        // Around comments and what ParaView notes about an array.
+        let texts = array.children().filter(|child| child.is_text());
+        let text: String = texts.filter_map(|child| child.text()).collect();
         if format == "ascii" {
             return text.split_ascii_whitespace().map(|word| number(word, name)).collect();
         }
@@ -192,7 +203,12 @@ impl<'a> File<'a> {
             (problem, "save it anew: it is cut off, or was changed by hand".to_owned())
         };
         let bytes = match (format, self.appended) {
-            ("binary", _) => self.in_base64(text.trim().as_bytes()).ok_or_else(cut_off)?,
+            ("binary", _) => {
+                let text: Vec<u8> =
+                    text.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
+                let bytes = self.in_base64(&text).ok_or_else(cut_off)?;
+                Cow::Owned(bytes.into_owned())
+            }
             ("appended", Some(Appended { is_raw, data })) => {
                 let offset = array.attribute("offset").and_then(|text| text.trim().parse().ok());
                 let from =

@@ -24,6 +24,12 @@ pub(super) fn balls(bytes: &[u8]) -> Result<Vec<Ball>, Fault> {
     }
     let values = |names: &[&str], components| values(&file, names, components);
     let (size, per_size) = match (values(&DIAMETER, 1)?, values(&RADIUS, 1)?) {
+        (Some(diameters), Some(radii))
+            if diameters.iter().zip(radii).any(|(d, r)| (d - 2.0 * r).abs() > 1e-3 * d.abs()) =>
+        {
+            let problem = "its points have a diameter and a radius that is not half of it";
+            return Err((problem.to_owned(), "leave one of the two arrays out".to_owned()));
+        }
         (Some(diameters), _) => (diameters, 1.0),
         (None, Some(radii)) => (radii, 2.0),
         (None, None) => {
