@@ -148,7 +148,7 @@ fn images(golden: &Path) -> Result<Vec<Number>, CaseError> {
             uncertainty: CARRIED_ON * (finest / k - 1.0),
             grids: Vec::new(),
             on_front: (image == "spheres")
-                .then_some("Resistance of an image of overlapping spheres, squares of a voxel"),
+                .then_some("Resistance of an image of overlapping spheres, voxel²/k"),
         };
         let grids = study.with(&[("image", image)])?.points("cells_per_voxel", "k_voxels2")?;
         Ok(number.with_grids(grids.into_iter().map(|(cells, k)| (cells, 1.0 / k)).collect()))
