@@ -6,14 +6,13 @@ use std::sync::LazyLock;
 
 use crate::cli::{Folder, psmrt, stderr};
 use crate::common::Budget;
+use crate::scene_free::mirror_plane_acts_as_the_image;
 use crate::scenes::{
     BOX, FLOOR_AND_LID, GRAVITY, free_sphere, read, saved, scene, three_grains, water,
 };
 use psmrt::advice::estimate::{models, numbers, warnings};
 use psmrt::engine::{EngineName, open};
 use psmrt::scene::{FreePart, Scene};
-use psmrt_reference::grains::grain::Grain;
-use psmrt_reference::grains::system::GrainSystem;
 use psmrt_reference::lattice::Vec3;
 
 /// Three grains, of which one is held and one is led, in a box of all kinds of faces.
@@ -84,35 +83,8 @@ fn modulus_and_ratio_in_si_units_become_the_law_that_they_describe() {
 
 #[test]
 fn a_mirror_plane_acts_on_an_elastic_grain_as_its_mirror_image_does() {
-    let (_, part) = part(&SCENE);
-    let grain = Grain { held: false, position: Vec3::new(8.0, 2.51, 8.0), ..part.grains[0] }
-        .moving(Vec3::new(0.01, -0.03, 0.005))
-        .spinning(Vec3::new(0.002, 0.0, -0.003));
-    let image = Grain {
-        position: Vec3::new(8.0, -2.51, 8.0),
-        velocity: Vec3::new(0.01, 0.03, 0.005),
-        angular_velocity: Vec3::new(-0.002, 0.0, 0.003),
-        ..grain
-    };
-    let system = |grains, planes| GrainSystem::new(part.setup, grains, planes).unwrap();
-    let mut mirrored = system(vec![grain], vec![part.planes[0]]);
-    let mut paired = system(vec![grain, image], Vec::new());
-    let mut touched = false;
-    for _ in 0..200 {
-        mirrored.substep(0.1, &[]).unwrap();
-        paired.substep(0.1, &[]).unwrap();
-        let (one, two) = (&mirrored.grains()[0], &paired.grains()[0]);
-        touched |= mirrored.contact_loads()[0].force.norm() > 0.0;
-        // The pair is symmetric; roots and quotients are rounded apart, in 200 sub-steps.
-        assert!((one.position - two.position).norm() < 1e-11);
-        assert!((one.velocity - two.velocity).norm() < 1e-11);
-        assert!((one.angular_velocity - two.angular_velocity).norm() < 1e-11);
-    }
-    assert!(touched && mirrored.grains()[0].velocity.y > 0.0, "it must have bounced");
-    assert!(
-        mirrored.grains()[0].angular_velocity.x.abs() < 0.002,
-        "rolling resistance must have acted"
-    );
+    // The pair is symmetric; roots and quotients are rounded apart, in 200 sub-steps.
+    mirror_plane_acts_as_the_image(&part(&SCENE).1, 1e-11);
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod arrays;
 pub mod attachment;
 mod balance;
 mod bodies;
+mod body_forms;
 pub mod checkpoint;
 mod collision;
 pub mod contact;
