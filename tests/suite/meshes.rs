@@ -131,7 +131,13 @@ fn what_lies_beyond_the_domain_is_cut_off() {
     assert!((total(&shares) / (PI * 9.0 * 10.0) - 1.0).abs() < 1e-9, "{}", total(&shares));
     // Just as high as the domain.
     let exact = placed(&cylinder(3.0, 10.0), [6.0, 5.5, 5.0], UnitQuaternion::identity());
-    for (one, other) in shares_of(&exact).iter().zip(&shares) {
+    let as_high = shares_of(&exact);
+    assert_eq!(
+        as_high.len(),
+        shares.len(),
+        "cells of a cylinder as high as the domain, and of one that is cut off there"
+    );
+    for (one, other) in as_high.iter().zip(&shares) {
         assert!(one.0 == other.0 && (one.1 - other.1).abs() < 1e-9, "{one:?} and {other:?}");
     }
     let outside = placed(&cylinder(3.0, 1.0), [30.0, 5.5, 5.0], UnitQuaternion::identity());

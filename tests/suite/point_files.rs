@@ -166,6 +166,13 @@ fn text_and_base64_give_the_grains_of_the_same_list() {
     }
 }
 
+/// A file with radii that are not half of its diameters, so often.
+fn with_radii(text: &str, times: usize) -> String {
+    let radii =
+        "<DataArray type=\"Float64\" Name=\"radius (m)\" format=\"ascii\">1e-5 1e-5</DataArray>\n";
+    text.replace("<PointData>\n", &format!("<PointData>\n{}", radii.repeat(times)))
+}
+
 #[test]
 fn point_files_that_are_not_read_are_refused_with_the_reason_and_a_remedy() {
     let folder = Folder::new("points_wrong");
@@ -180,6 +187,13 @@ fn point_files_that_are_not_read_are_refused_with_the_reason_and_a_remedy() {
         (text[..text.len() - 30].to_owned(), "no valid XML", "cut off"),
         (text.replace("diameter (m)", "size"), "no array \"diameter (m)\"", "radius (m)"),
         (text.replace("4e-5 4.5e-5", "4e-5"), "array \"diameter (m)\" has 1 values", "cut off"),
+        (
+            text.replace("NumberOfPoints=\"2\"", "NumberOfPoints=\"2.0\""),
+            "it has \"2.0\" points",
+            "anew",
+        ),
+        (with_radii(&text, 1), "a radius that is not half of it", "leave one"),
+        (with_radii(&text, 2), "array \"radius (m)\" twice", "anew"),
         (text.replace("4e-5 4.5e-5", "4e-5 0"), "point 1 (from 0): diameter (m) = 0", "above 0"),
         (text.replace("4e-5 4.5e-5", "4e-5 0,5"), "\"0,5\" is no number", "points"),
         (text.replace("4e-5 4.5e-5", "4e-5 nan"), "point 1 (from 0)", "finite"),

@@ -273,3 +273,30 @@ fn sphere_that_touches_the_inlet_is_warned_of_and_presses_the_fluid_beneath_it_t
     assert!(touching > 0.1, "beneath a sphere that touches, the density rises by {touching:e}");
     assert!(clear < 0.01, "with clear fluid above the inlet the density rises by {clear:e}");
 }
+
+#[test]
+fn bed_on_a_sieve_is_the_same_bed_higher_up() {
+    let text = |floor: &str| {
+        let rest = format!(
+            "[faces]\nz_low = {{ kind = \"velocity_inlet\", velocity = [0.0, 0.0, 1e-3] }}\nz_high = {{ kind = \"pressure\", pressure = 0.0 }}\n\
+             [[grains]]\nkind = \"bed\"\ncount = 6\ndiameter = 8e-5\n{floor}[stop]\nsteps = 1\n"
+        );
+        water([16, 16, 40], 1e-5, &rest)
+    };
+    let (low, high) = (scene(&text("")), scene(&text("floor = 1.1e-4\n")));
+    let solids = |scene: &Scene| scene.setup.solid_phase.clone().unwrap().solids;
+    for (low, high) in solids(&low).iter().zip(&solids(&high)) {
+        let moved = high.centre - low.centre;
+        assert!(
+            (moved.x, moved.y) == (0.0, 0.0) && (moved.z - 11.0).abs() < 1e-9,
+            "moved by {moved:?} cells, 11 wanted"
+        );
+    }
+    assert!(warned(&low, "the velocity inlet z_low").is_some());
+    assert_eq!(warned(&high, "the velocity inlet z_low"), None);
+    let error = crate::scenes::read(&text("floor = 3.9e-4\n")).unwrap_err();
+    assert!(
+        error.contains("grains[0].floor") && error.contains("higher than the domain"),
+        "{error}"
+    );
+}
